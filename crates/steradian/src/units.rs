@@ -1,0 +1,1 @@
+//! Radiometric and photometric quantities with their units.
