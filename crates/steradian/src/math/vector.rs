@@ -78,7 +78,7 @@ macro_rules! unit_vector {
             pub fn new(v: Vec3) -> Option<Self> {
                 // Scaling by the largest component first keeps tiny and huge vectors in range.
                 let scale = v.abs().max_element();
-                if !(scale > 0.0 && scale.is_finite()) {
+                if !(scale > 0.0 && v.is_finite()) {
                     return None;
                 }
                 let v = v / scale;

@@ -1,0 +1,78 @@
+//! What every scattering function promises.
+//!
+//! ```text
+//!            n = z
+//!     wo     |     wi        wo: the known side, towards the sensor
+//!       \    |    /          wi: the sampled side, towards the light
+//!        \   |   /           both point away from the surface, in the local frame
+//!   ______\__|__/______
+//! ```
+//!
+//! `f` [sr⁻¹] contains no cosine. Randomness is an argument. Sampling that fails is `None`.
+
+use crate::math::LocalDir;
+use crate::spectrum::Sampled;
+use crate::units::{Density, Unitless};
+
+/// What is transported along the path: radiance is scaled by (ηo/ηi)² through a refraction, power is not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// From the sensor towards lights.
+    Radiance,
+    /// From lights towards the sensor.
+    Importance,
+}
+
+/// Which side of the surface a sampled direction leaves to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Same side as `wo`.
+    Reflection,
+    /// Opposite side.
+    Transmission,
+}
+
+/// How wide the sampled lobe is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lobe {
+    /// Lambertian or nearly so.
+    Diffuse,
+    /// Concentrated but continuous.
+    Glossy,
+    /// A discrete direction.
+    Specular,
+}
+
+/// A direction drawn from a scattering function.
+#[derive(Clone, Copy, Debug)]
+pub struct BsdfSample {
+    /// The sampled direction.
+    pub wi: LocalDir,
+    /// f·|cosθi|/p, formed analytically where f and p are closed forms; unbiased where both are estimated.
+    /// For a discrete direction: the power ratio (times the radiance scale) over the probability of choosing it.
+    pub weight: Sampled<Unitless>,
+    /// Density of `wi` for multiple importance sampling; `Delta` for a discrete direction.
+    pub density: Density,
+    /// Side that `wi` leaves to.
+    pub side: Side,
+    /// Width of the lobe.
+    pub lobe: Lobe,
+    /// Relative index of refraction ηt/ηi that the sample crossed; 1 for reflection.
+    pub eta: f32,
+}
+
+/// Which lobes of a BSDF are present: a purely specular one needs no light samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lobes {
+    /// Scatters into a continuum of directions on the side of `wo`.
+    pub reflection: bool,
+    /// Scatters into a continuum of directions on the other side.
+    pub transmission: bool,
+}
+
+impl Lobes {
+    /// Whether any direction but discrete ones can be scattered into.
+    pub fn is_continuous(self) -> bool {
+        self.reflection || self.transmission
+    }
+}

@@ -1,0 +1,74 @@
+//! Rays, and points that know how far they may be from the surface they were computed on.
+
+use super::vector::{Dir, Normal, Point, Vec3};
+
+/// A half-line. `d` is not necessarily normalised; parametric distances are in units of |d|.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Origin.
+    pub o: Point,
+    /// Direction, finite and not zero.
+    pub d: Vec3,
+    /// Time within the shutter interval [s].
+    pub time: f32,
+}
+
+impl Ray {
+    /// The point at parametric distance `t`.
+    pub fn at(&self, t: f32) -> Point {
+        self.o + self.d * t
+    }
+}
+
+/// A computed point with a conservative bound on its rounding error, per axis.
+///
+/// Rays that leave a surface start outside this box along the geometric normal, which rules out
+/// self-intersection at any scale without an epsilon (Wächter's argument; pbrt-v4 book, 6.8).
+#[derive(Clone, Copy, Debug)]
+pub struct BoundedPoint {
+    /// The computed position.
+    pub p: Point,
+    /// Bound on |true − computed|, not negative, in scene units.
+    pub error: Vec3,
+}
+
+impl BoundedPoint {
+    /// A point that is exact by definition, such as the position of a point light.
+    pub fn exact(p: Point) -> Self {
+        Self { p, error: Vec3::ZERO }
+    }
+
+    /// Origin for a ray that leaves towards `w`: moved along `n` to the side of `w`, out of the error box.
+    pub fn offset_origin(&self, n: Normal, w: Vec3) -> Point {
+        let distance = n.abs().dot(self.error);
+        let mut offset = n * distance;
+        if w.dot(*n) < 0.0 {
+            offset = -offset;
+        }
+        let o = *self.p + offset;
+        // The sum rounds too: step once more, away from the surface.
+        let away = |o: f32, offset: f32| match offset {
+            x if x > 0.0 => o.next_up(),
+            x if x < 0.0 => o.next_down(),
+            _ => o,
+        };
+        Point::new(away(o.x, offset.x), away(o.y, offset.y), away(o.z, offset.z))
+    }
+
+    /// Ray that leaves this point in direction `w`.
+    pub fn spawn(&self, n: Normal, w: Dir, time: f32) -> Ray {
+        Ray { o: self.offset_origin(n, *w), d: *w, time }
+    }
+
+    /// Ray from this point towards `to`, where t = 1 is the target, moved off its own surface.
+    ///
+    /// `n` and `to_n` are the geometric normals; a target without a surface has `to_n` = `None`.
+    pub fn spawn_to(&self, n: Normal, to: &BoundedPoint, to_n: Option<Normal>, time: f32) -> Ray {
+        let o = self.offset_origin(n, to.p - self.p);
+        let target = match to_n {
+            Some(to_n) => to.offset_origin(to_n, o - to.p),
+            None => to.p,
+        };
+        Ray { o, d: target - o, time }
+    }
+}

@@ -1,1 +1,0 @@
-//! Radiometric and photometric quantities with their units.
