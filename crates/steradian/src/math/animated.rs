@@ -39,7 +39,11 @@ impl Keyframe {
         if r.determinant() < 0.0 {
             r *= -1.0;
         }
-        Self { translation: m.w_axis.truncate(), rotation: DQuat::from_mat3(&r), stretch: r.inverse() * linear }
+        Self {
+            translation: m.w_axis.truncate(),
+            rotation: DQuat::from_mat3(&r),
+            stretch: r.inverse() * linear,
+        }
     }
 }
 
@@ -154,7 +158,10 @@ mod tests {
             let t = a.at(i as f32 * 0.002);
             for c in b.corners() {
                 let p = t.point(c);
-                assert!(p.cmpge(*m.min - 1e-4).all() && p.cmple(*m.max + 1e-4).all(), "{i}: {p:?} outside {m:?}");
+                assert!(
+                    p.cmpge(*m.min - 1e-4).all() && p.cmple(*m.max + 1e-4).all(),
+                    "{i}: {p:?} outside {m:?}"
+                );
             }
         }
     }

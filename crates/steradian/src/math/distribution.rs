@@ -233,7 +233,7 @@ mod tests {
         let mean = f.iter().sum::<f32>() / 12.0;
         assert!((d.integral() - mean).abs() < 1e-6);
         let n = 300;
-        let mut counts = vec![0u32; 12];
+        let mut counts = [0u32; 12];
         for i in 0..n * n {
             let u = Vec2::new((i % n) as f32 + 0.5, (i / n) as f32 + 0.5) / n as f32;
             let (p, pdf) = d.sample(u);

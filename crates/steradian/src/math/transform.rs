@@ -85,10 +85,22 @@ impl Transform {
         let (n, f) = (f64::from(near), f64::from(far));
         let s = 1.0 / (f64::from(fov).to_radians() * 0.5).tan();
         let m = DMat4::from_cols_array(&[
-            s, 0.0, 0.0, 0.0, //
-            0.0, s, 0.0, 0.0, //
-            0.0, 0.0, f / (f - n), 1.0, //
-            0.0, 0.0, -f * n / (f - n), 0.0,
+            s,
+            0.0,
+            0.0,
+            0.0, //
+            0.0,
+            s,
+            0.0,
+            0.0, //
+            0.0,
+            0.0,
+            f / (f - n),
+            1.0, //
+            0.0,
+            0.0,
+            -f * n / (f - n),
+            0.0,
         ]);
         Self::from_matrix_f64(m)
     }
@@ -205,7 +217,8 @@ mod tests {
 
     #[test]
     fn normals_stay_perpendicular_under_uneven_scaling() {
-        let t = Transform::scale(Vec3::new(3.0, 0.5, 1.0)).unwrap() * Transform::rotate(33.0, Vec3::ONE).unwrap();
+        let t =
+            Transform::scale(Vec3::new(3.0, 0.5, 1.0)).unwrap() * Transform::rotate(33.0, Vec3::ONE).unwrap();
         let n = Normal::new(Vec3::new(1.0, 2.0, 3.0)).unwrap();
         let tangent = Vec3::new(2.0, -1.0, 0.0);
         assert!(t.normal(n).unwrap().dot(t.vector(tangent)).abs() < 1e-5);

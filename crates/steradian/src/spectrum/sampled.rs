@@ -1,6 +1,6 @@
 //! The wavelengths that one path carries, and the spectral values at them.
 
-use crate::units::{PerSteradian, PdfSolidAngle, Quantity, Radiance, Unitless};
+use crate::units::{PdfSolidAngle, PerSteradian, Quantity, Radiance, Unitless};
 use std::marker::PhantomData;
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Sub};
 
@@ -31,7 +31,8 @@ impl Wavelengths {
             if up >= 1.0 {
                 up -= 1.0;
             }
-            let lambda = (538.0 - 138.888_889 * (0.856_910_62 - 1.827_502_0 * up).atanh()).clamp(LAMBDA_MIN, LAMBDA_MAX);
+            let lambda = (538.0 - 138.888_889 * (0.856_910_62 - 1.827_502_0 * up).atanh())
+                .clamp(LAMBDA_MIN, LAMBDA_MAX);
             s.lambda[i] = lambda;
             s.pdf[i] = Self::visible_pdf(lambda);
         }
@@ -274,8 +275,9 @@ mod tests {
     fn visible_density_integrates_to_one_and_samples_follow_it() {
         let n = 47_000;
         let step = (LAMBDA_MAX - LAMBDA_MIN) / n as f32;
-        let mass: f64 =
-            (0..n).map(|i| f64::from(Wavelengths::visible_pdf(LAMBDA_MIN + (i as f32 + 0.5) * step) * step)).sum();
+        let mass: f64 = (0..n)
+            .map(|i| f64::from(Wavelengths::visible_pdf(LAMBDA_MIN + (i as f32 + 0.5) * step) * step))
+            .sum();
         assert!((mass - 1.0).abs() < 1e-4, "{mass}");
         // ∫ g dλ estimated by importance sampling, for g = λ: (830² − 360²)/2.
         let m = 20_000;
