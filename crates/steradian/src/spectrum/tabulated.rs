@@ -1,0 +1,304 @@
+//! Spectra given by samples: sparse and piecewise linear, or dense at 1 nm.
+
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Why pairs of wavelength and value do not define a spectrum.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum TableError {
+    /// There is no pair at all.
+    #[error("no samples: a spectrum needs at least one wavelength and value")]
+    Empty,
+    /// The last wavelength has no value.
+    #[error("{count} numbers: wavelengths and values must come in pairs")]
+    OddCount {
+        /// How many numbers there are.
+        count: usize,
+    },
+    /// A wavelength is not larger than the one before it.
+    #[error("wavelength {lambda} nm follows {previous} nm: wavelengths must increase")]
+    NotIncreasing {
+        /// Index of the offending pair.
+        index: usize,
+        /// The wavelength before it [nm].
+        previous: f32,
+        /// The offending wavelength [nm].
+        lambda: f32,
+    },
+    /// A wavelength or value is infinite or not a number.
+    #[error("sample {index} is not finite")]
+    NotFinite {
+        /// Index of the offending pair.
+        index: usize,
+    },
+    /// A wavelength is zero or negative.
+    #[error("wavelength {lambda} nm is not positive")]
+    NotPositive {
+        /// Index of the offending pair.
+        index: usize,
+        /// The offending wavelength [nm].
+        lambda: f32,
+    },
+}
+
+impl TableError {
+    /// Index of the pair that is wrong, where one pair is to blame.
+    pub fn pair(&self) -> Option<usize> {
+        match *self {
+            Self::Empty => None,
+            Self::OddCount { count } => Some(count / 2),
+            Self::NotIncreasing { index, .. }
+            | Self::NotFinite { index }
+            | Self::NotPositive { index, .. } => Some(index),
+        }
+    }
+}
+
+/// A piecewise linear spectrum through samples of any spacing; zero outside their range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabulated {
+    lambda: Box<[f32]>,
+    value: Box<[f32]>,
+    /// Segment in which each of equally wide buckets of the range begins: finding a segment is one
+    /// multiplication and, for data no denser than the buckets, at most one step.
+    first: Box<[u16]>,
+    buckets_per_nm: f32,
+}
+
+/// Bounds the bucket table of a spectrum that spans a huge range.
+const MAX_BUCKETS: usize = 8192;
+
+impl Tabulated {
+    /// From wavelengths [nm], finite, positive and increasing, each with its finite value.
+    pub fn new(pairs: &[(f32, f32)]) -> Result<Self, TableError> {
+        if pairs.is_empty() {
+            return Err(TableError::Empty);
+        }
+        for (index, &(lambda, value)) in pairs.iter().enumerate() {
+            if !(lambda.is_finite() && value.is_finite()) {
+                return Err(TableError::NotFinite { index });
+            }
+            if lambda <= 0.0 {
+                return Err(TableError::NotPositive { index, lambda });
+            }
+            if index > 0 && lambda <= pairs[index - 1].0 {
+                return Err(TableError::NotIncreasing { index, previous: pairs[index - 1].0, lambda });
+            }
+        }
+        Ok(Self::from_sorted(pairs))
+    }
+
+    /// From numbers in turn wavelength [nm] and value, as scene files write them.
+    pub fn from_interleaved(numbers: &[f32]) -> Result<Self, TableError> {
+        if !numbers.len().is_multiple_of(2) {
+            return Err(TableError::OddCount { count: numbers.len() });
+        }
+        let pairs: Vec<_> = numbers.chunks_exact(2).map(|p| (p[0], p[1])).collect();
+        Self::new(&pairs)
+    }
+
+    fn from_sorted(pairs: &[(f32, f32)]) -> Self {
+        let lambda: Box<[f32]> = pairs.iter().map(|p| p.0).collect();
+        let value: Box<[f32]> = pairs.iter().map(|p| p.1).collect();
+        let range = lambda[lambda.len() - 1] - lambda[0];
+        let buckets = (range.ceil() as usize).clamp(1, MAX_BUCKETS);
+        let last_segment = lambda.len().saturating_sub(2);
+        let mut segment = 0;
+        let first = (0..buckets)
+            .map(|b| {
+                let start = lambda[0] + range * (b as f32 / buckets as f32);
+                while segment < last_segment && lambda[segment + 1] <= start {
+                    segment += 1;
+                }
+                u16::try_from(segment).unwrap_or(u16::MAX)
+            })
+            .collect();
+        let buckets_per_nm = if range > 0.0 { buckets as f32 / range } else { 0.0 };
+        Self { lambda, value, first, buckets_per_nm }
+    }
+
+    /// The value at `lambda` [nm]; zero outside [`Tabulated::range`].
+    pub fn at(&self, lambda: f32) -> f32 {
+        let n = self.lambda.len();
+        if !(self.lambda[0]..=self.lambda[n - 1]).contains(&lambda) {
+            return 0.0;
+        }
+        if n == 1 {
+            return self.value[0];
+        }
+        let bucket = ((lambda - self.lambda[0]) * self.buckets_per_nm) as usize;
+        let mut i = usize::from(self.first[bucket.min(self.first.len() - 1)]);
+        // Rounding can put a wavelength into the bucket after its own.
+        while i > 0 && lambda < self.lambda[i] {
+            i -= 1;
+        }
+        while lambda > self.lambda[i + 1] {
+            i += 1;
+        }
+        let t = (lambda - self.lambda[i]) / (self.lambda[i + 1] - self.lambda[i]);
+        self.value[i] * (1.0 - t) + self.value[i + 1] * t
+    }
+
+    /// First and last wavelength [nm].
+    pub fn range(&self) -> (f32, f32) {
+        (self.lambda[0], self.lambda[self.lambda.len() - 1])
+    }
+
+    /// The samples: wavelength [nm] and value.
+    pub fn samples(&self) -> impl ExactSizeIterator<Item = (f32, f32)> + '_ {
+        self.lambda.iter().copied().zip(self.value.iter().copied())
+    }
+
+    /// Largest value.
+    pub fn max_value(&self) -> f32 {
+        self.value.iter().fold(0.0, |a, &b| a.max(b))
+    }
+
+    /// The same spectrum with every value multiplied by `factor`.
+    #[must_use]
+    pub fn scaled(mut self, factor: f32) -> Self {
+        for v in &mut self.value {
+            *v *= factor;
+        }
+        self
+    }
+
+    /// The spectrum with its first and last value held as far as `min` and `max` [nm].
+    ///
+    /// pbrt's rule for its built-in spectra, several of which end inside 360–830 nm.
+    #[must_use]
+    pub fn held_to(self, min: f32, max: f32) -> Self {
+        let (start, end) = self.range();
+        let mut pairs: Vec<_> = self.samples().collect();
+        if min < start {
+            pairs.insert(0, (min, self.value[0]));
+        }
+        if max > end {
+            pairs.push((max, self.value[self.value.len() - 1]));
+        }
+        Self::from_sorted(&pairs)
+    }
+}
+
+/// A spectrum sampled at every nanometre, linear in between and zero outside. Clones share the samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dense {
+    start: f32,
+    value: Arc<[f32]>,
+}
+
+impl Dense {
+    /// Samples `f` at `start`, `start` + 1, … nm; `count` samples (at least one).
+    pub fn sample_function(start: f32, count: usize, f: impl Fn(f32) -> f32) -> Self {
+        Self { start, value: (0..count.max(1)).map(|i| f(start + i as f32)).collect() }
+    }
+
+    /// The value at `lambda` [nm]; zero outside [`Dense::range`].
+    pub fn at(&self, lambda: f32) -> f32 {
+        let x = lambda - self.start;
+        let last = self.value.len() - 1;
+        if !(0.0..=last as f32).contains(&x) {
+            return 0.0;
+        }
+        let i = x as usize;
+        let t = x - i as f32;
+        let a = self.value[i];
+        a + t * (self.value[(i + 1).min(last)] - a)
+    }
+
+    /// First and last wavelength [nm].
+    pub fn range(&self) -> (f32, f32) {
+        (self.start, self.start + (self.value.len() - 1) as f32)
+    }
+
+    /// Largest value.
+    pub fn max_value(&self) -> f32 {
+        self.value.iter().fold(0.0, |a, &b| a.max(b))
+    }
+
+    /// The same spectrum with every value multiplied by `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: f32) -> Self {
+        Self { start: self.start, value: self.value.iter().map(|v| v * factor).collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn reference(pairs: &[(f32, f32)], lambda: f32) -> f32 {
+        pairs
+            .windows(2)
+            .find(|w| (w[0].0..=w[1].0).contains(&lambda))
+            .map_or(0.0, |w| w[0].1 + (w[1].1 - w[0].1) * (lambda - w[0].0) / (w[1].0 - w[0].0))
+    }
+
+    proptest! {
+        #[test]
+        fn lookup_agrees_with_a_linear_search(
+            steps in prop::collection::vec((0.01_f32..40.0, -2.0_f32..5.0), 2..80),
+            at in prop::collection::vec(0.0_f32..1.0, 20),
+        ) {
+            let mut lambda = 200.0;
+            let pairs: Vec<_> = steps.iter().map(|&(d, v)| { lambda += d; (lambda, v) }).collect();
+            let table = Tabulated::new(&pairs).unwrap();
+            let (lo, hi) = table.range();
+            for u in at {
+                let l = lo - 5.0 + u * (hi - lo + 10.0);
+                prop_assert!((table.at(l) - reference(&pairs, l)).abs() < 2e-4, "{} at {l}", table.at(l));
+            }
+            for &(l, v) in &pairs {
+                prop_assert!((table.at(l) - v).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn one_sample_is_a_spectrum_of_no_width() {
+        let t = Tabulated::new(&[(500.0, 3.0)]).unwrap();
+        assert_eq!([t.at(499.9), t.at(500.0), t.at(500.1)], [0.0, 3.0, 0.0]);
+    }
+
+    #[test]
+    fn a_table_over_the_whole_electromagnetic_spectrum_stays_exact() {
+        let t = Tabulated::new(&[(1.0, 0.0), (2.0, 1.0), (3.0, 0.0), (1e9, 1.0)]).unwrap();
+        assert_eq!(t.at(1.5), 0.5);
+        assert_eq!(t.at(2.25), 0.75);
+        assert!((t.at(5e8) - 0.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn wrong_pairs_are_named() {
+        assert_eq!(Tabulated::new(&[]), Err(TableError::Empty));
+        assert_eq!(Tabulated::from_interleaved(&[400.0, 1.0, 500.0]), Err(TableError::OddCount { count: 3 }));
+        assert_eq!(
+            Tabulated::from_interleaved(&[400.0, 1.0, 400.0, 2.0]),
+            Err(TableError::NotIncreasing { index: 1, previous: 400.0, lambda: 400.0 })
+        );
+        assert_eq!(Tabulated::new(&[(400.0, f32::NAN)]), Err(TableError::NotFinite { index: 0 }));
+        assert_eq!(Tabulated::new(&[(f32::INFINITY, 1.0)]), Err(TableError::NotFinite { index: 0 }));
+        assert_eq!(Tabulated::new(&[(-1.0, 1.0)]), Err(TableError::NotPositive { index: 0, lambda: -1.0 }));
+    }
+
+    #[test]
+    fn held_ends_continue_the_first_and_last_value() {
+        let t = Tabulated::new(&[(400.0, 1.0), (700.0, 4.0)]).unwrap().held_to(360.0, 830.0);
+        assert_eq!([t.at(360.0), t.at(399.0), t.at(550.0), t.at(830.0)], [1.0, 1.0, 2.5, 4.0]);
+        assert_eq!(t.at(359.0), 0.0);
+        assert_eq!(t.clone().held_to(500.0, 600.0), t);
+    }
+
+    #[test]
+    fn dense_samples_interpolate_and_end() {
+        let d = Dense::sample_function(360.0, 471, |l| l);
+        assert_eq!(
+            [d.at(360.0), d.at(415.25), d.at(830.0), d.at(830.01), d.at(359.9)],
+            [360.0, 415.25, 830.0, 0.0, 0.0]
+        );
+        assert_eq!(d.at(f32::NAN), 0.0);
+        assert_eq!(d.scaled(2.0).max_value(), 1660.0);
+    }
+}
