@@ -1,1 +1,20 @@
-//! scene
+//! From scene text to a scene: description, diagnostics, import (and compilation).
+//!
+//! ```text
+//! bytes ─ text (lexer, parser: knows the grammar, no plugin names)
+//!       ─ import (knows plugin names and parameters, resolves names)
+//!       ─ desc (typed plain data) ─ compile
+//! ```
+//!
+//! Every stage that can find fault with a scene takes a [`Diagnostics`] collection, so that a user sees
+//! all errors of a scene at once, each at its place in the text.
+
+pub mod desc;
+pub mod diagnostic;
+pub mod files;
+pub mod source;
+
+pub use desc::SceneDesc;
+pub use diagnostic::{Diagnostic, Diagnostics, Severity, nearest};
+pub use files::{Disk, FileBytes, FileSystem, MemoryFiles};
+pub use source::{FileId, Location, SourceMap, Span};

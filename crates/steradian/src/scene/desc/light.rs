@@ -1,0 +1,133 @@
+//! Light sources as the scene states them.
+
+use super::id::Id;
+use super::medium::MediumDesc;
+use super::value::{FileRef, SpectrumDesc};
+use crate::math::{AnimatedTransform, Point};
+use crate::scene::source::Span;
+
+/// A light that is not a surface.
+#[derive(Clone, Debug)]
+pub struct LightDesc {
+    /// What it is.
+    pub kind: LightKind,
+    /// Factor on its emission (1).
+    pub scale: f32,
+    /// How amounts are meant.
+    pub normalization: Normalization,
+    /// The transform in force.
+    pub world_from_light: AnimatedTransform,
+    /// The medium around the light.
+    pub medium: Option<Id<MediumDesc>>,
+    /// The directive.
+    pub span: Span,
+}
+
+/// Whether a light's spectrum states amounts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normalization {
+    /// As pbrt-v4 does: the spectrum is divided by its photometric integral, `scale` is luminous [cd/m², cd, lx].
+    #[default]
+    Photometric,
+    /// The spectrum is absolute, in W·m⁻²·sr⁻¹·nm⁻¹ (radiance), W·sr⁻¹·nm⁻¹ (intensity) or W·m⁻²·nm⁻¹ (irradiance),
+    /// whichever is the quantity of the kind of light.
+    Absolute,
+}
+
+/// The kinds of light; points are in light space, defaults in parentheses.
+#[derive(Clone, Debug)]
+pub enum LightKind {
+    /// A point that shines equally in all directions.
+    Point {
+        /// Intensity (the colour space's white).
+        intensity: SpectrumDesc,
+        /// Position (origin).
+        from: Point,
+        /// Luminous power [lm] that replaces the amount of the intensity, > 0.
+        power: Option<f32>,
+    },
+    /// A point that shines in a cone.
+    Spot {
+        /// Intensity on the axis (the colour space's white).
+        intensity: SpectrumDesc,
+        /// Position (origin).
+        from: Point,
+        /// A point on the axis (0, 0, 1); differs from `from`.
+        to: Point,
+        /// Half angle of the cone [degrees] (30).
+        cone_angle: f32,
+        /// Width of the falloff inside the cone [degrees] (5).
+        cone_delta_angle: f32,
+        /// Luminous power [lm], > 0.
+        power: Option<f32>,
+    },
+    /// A point whose intensity is a picture of directions.
+    Goniometric {
+        /// Intensity that scales the picture (the colour space's white).
+        intensity: SpectrumDesc,
+        /// Equal-area octahedral picture.
+        file: FileRef,
+        /// Luminous power [lm], > 0.
+        power: Option<f32>,
+    },
+    /// A slide projector.
+    Projection {
+        /// The slide.
+        file: FileRef,
+        /// Full angle of view along the slide's shorter side [degrees] (90), in (0, 180).
+        fov: f32,
+        /// Luminous power [lm], > 0.
+        power: Option<f32>,
+    },
+    /// Parallel light from infinity.
+    Distant {
+        /// Perpendicular irradiance (the colour space's white).
+        irradiance: SpectrumDesc,
+        /// Light travels from here (origin) …
+        from: Point,
+        /// … to here (0, 0, 1); differs from `from`.
+        to: Point,
+        /// Perpendicular illuminance [lx], > 0.
+        illuminance: Option<f32>,
+    },
+    /// The same radiance from every direction.
+    UniformInfinite {
+        /// Radiance (the colour space's white).
+        radiance: SpectrumDesc,
+        /// Illuminance on a plane [lx], > 0.
+        illuminance: Option<f32>,
+    },
+    /// Radiance from all directions by a picture.
+    ImageInfinite {
+        /// Equal-area octahedral picture, square.
+        file: FileRef,
+        /// Illuminance on a plane facing +z of light space [lx], > 0.
+        illuminance: Option<f32>,
+    },
+}
+
+/// The emission that shapes after an `AreaLightSource` directive have.
+#[derive(Clone, Debug)]
+pub struct AreaLightDesc {
+    /// Radiance (the colour space's white), or a picture of it over (u, v).
+    pub radiance: AreaRadiance,
+    /// Factor on the emission (1).
+    pub scale: f32,
+    /// How amounts are meant.
+    pub normalization: Normalization,
+    /// Whether both sides emit (false).
+    pub two_sided: bool,
+    /// Luminous power [lm] of each shape that replaces the amount of the radiance, > 0.
+    pub power: Option<f32>,
+    /// The directive.
+    pub span: Span,
+}
+
+/// What a surface emits.
+#[derive(Clone, Debug)]
+pub enum AreaRadiance {
+    /// The same spectrum everywhere.
+    Uniform(SpectrumDesc),
+    /// A picture over (u, v).
+    Image(FileRef),
+}

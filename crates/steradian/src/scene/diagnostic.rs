@@ -1,0 +1,311 @@
+//! Errors, warnings and notices that point at the text.
+
+use super::source::{SourceMap, Span};
+use std::fmt;
+
+/// How serious a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The scene cannot be rendered as it is.
+    Error,
+    /// The scene is rendered, but probably not as its author meant it.
+    Warning,
+    /// Something worth knowing that leaves the picture as it is.
+    Notice,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Notice => "notice",
+        })
+    }
+}
+
+/// One message about the scene.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// How serious it is.
+    pub severity: Severity,
+    /// What is the matter, in lower case and without a full stop.
+    pub message: String,
+    /// Where; `None` when the message concerns no particular place.
+    pub span: Option<Span>,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Other places that belong to the message, such as an earlier definition.
+    pub related: Vec<Related>,
+}
+
+/// A second place that a diagnostic refers to.
+#[derive(Clone, Debug)]
+pub struct Related {
+    /// The place.
+    pub span: Span,
+    /// What it has to do with the message.
+    pub message: String,
+}
+
+impl Diagnostic {
+    fn new(severity: Severity, span: Span, message: impl Into<String>) -> Self {
+        Self { severity, message: message.into(), span: Some(span), help: None, related: Vec::new() }
+    }
+
+    /// An error at a place.
+    pub fn error(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, span, message)
+    }
+
+    /// A warning at a place.
+    pub fn warning(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, span, message)
+    }
+
+    /// A notice at a place.
+    pub fn notice(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Notice, span, message)
+    }
+
+    /// The same diagnostic with advice.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The same diagnostic with "did you mean" advice when one of `candidates` is close to `name`.
+    #[must_use]
+    pub fn with_nearest<'a>(self, name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Self {
+        match nearest(name, candidates) {
+            Some(n) => self.with_help(format!("did you mean \"{n}\"?")),
+            None => self,
+        }
+    }
+
+    /// The same diagnostic with a second place.
+    #[must_use]
+    pub fn with_related(mut self, span: Span, message: impl Into<String>) -> Self {
+        self.related.push(Related { span, message: message.into() });
+        self
+    }
+
+    /// The full text of the diagnostic: place, message, source line with underline, help and related places.
+    pub fn display<'a>(&'a self, sources: &'a SourceMap) -> impl fmt::Display + 'a {
+        Rendered { diagnostic: self, sources }
+    }
+}
+
+struct Rendered<'a> {
+    diagnostic: &'a Diagnostic,
+    sources: &'a SourceMap,
+}
+
+impl fmt::Display for Rendered<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = self.diagnostic;
+        match d.span {
+            Some(span) => self.place(f, span, &format!("{}: {}", d.severity, d.message))?,
+            None => write!(f, "{}: {}", d.severity, d.message)?,
+        }
+        if let Some(help) = &d.help {
+            write!(f, "\n  help: {help}")?;
+        }
+        for r in &d.related {
+            writeln!(f)?;
+            self.place(f, r.span, &format!("note: {}", r.message))?;
+        }
+        let mut from = d.span.and_then(|s| self.sources.file(s.file)).and_then(|file| file.included_from);
+        while let Some(span) = from {
+            let l = self.sources.location(span);
+            write!(f, "\n  included from {}:{}:{}", l.file, l.line, l.column)?;
+            from = self.sources.file(span.file).and_then(|file| file.included_from);
+        }
+        Ok(())
+    }
+}
+
+impl Rendered<'_> {
+    fn place(&self, f: &mut fmt::Formatter<'_>, span: Span, message: &str) -> fmt::Result {
+        let l = self.sources.location(span);
+        write!(f, "{}:{}:{}: {message}", l.file, l.line, l.column)?;
+        if let Some(e) = self.sources.excerpt(span).filter(|e| !e.text.trim().is_empty()) {
+            let gutter = l.line.to_string();
+            write!(f, "\n {gutter} | {}", e.text)?;
+            let pad = gutter.len();
+            write!(f, "\n {:pad$} | {:caret$}{}", "", "", "^".repeat(e.len), caret = e.caret)?;
+        }
+        Ok(())
+    }
+}
+
+/// The diagnostics of one scene, in the order in which they were found.
+///
+/// At most [`Diagnostics::LIMIT`] are kept; the rest are counted.
+#[derive(Clone, Debug, Default)]
+pub struct Diagnostics {
+    kept: Vec<Diagnostic>,
+    errors: usize,
+    dropped: usize,
+}
+
+impl Diagnostics {
+    /// Number of diagnostics that are kept.
+    pub const LIMIT: usize = 100;
+
+    /// No diagnostics.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a diagnostic; beyond the limit it is only counted.
+    pub fn push(&mut self, d: Diagnostic) {
+        if d.severity == Severity::Error {
+            self.errors += 1;
+        }
+        if self.kept.len() < Self::LIMIT {
+            self.kept.push(d);
+        } else {
+            self.dropped += 1;
+        }
+    }
+
+    /// Adds an error at a place.
+    pub fn error(&mut self, span: Span, message: impl Into<String>) {
+        self.push(Diagnostic::error(span, message));
+    }
+
+    /// Adds a warning at a place.
+    pub fn warning(&mut self, span: Span, message: impl Into<String>) {
+        self.push(Diagnostic::warning(span, message));
+    }
+
+    /// Adds a notice at a place.
+    pub fn notice(&mut self, span: Span, message: impl Into<String>) {
+        self.push(Diagnostic::notice(span, message));
+    }
+
+    /// Whether any of them, kept or dropped, is an error.
+    pub fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// Number of errors, kept or dropped.
+    pub fn error_count(&self) -> usize {
+        self.errors
+    }
+
+    /// Number of diagnostics beyond the limit.
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.kept.is_empty()
+    }
+
+    /// The diagnostics that were kept.
+    pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
+        self.kept.iter()
+    }
+
+    /// The text of all diagnostics, each followed by a line end.
+    pub fn display<'a>(&'a self, sources: &'a SourceMap) -> impl fmt::Display + 'a {
+        RenderedAll { diagnostics: self, sources }
+    }
+}
+
+impl<'a> IntoIterator for &'a Diagnostics {
+    type Item = &'a Diagnostic;
+    type IntoIter = std::slice::Iter<'a, Diagnostic>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+struct RenderedAll<'a> {
+    diagnostics: &'a Diagnostics,
+    sources: &'a SourceMap,
+}
+
+impl fmt::Display for RenderedAll<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for d in self.diagnostics {
+            writeln!(f, "{}", d.display(self.sources))?;
+        }
+        match self.diagnostics.dropped {
+            0 => Ok(()),
+            n => writeln!(f, "… and {n} more"),
+        }
+    }
+}
+
+/// The candidate closest to `name` by edit distance, ignoring case; `None` when none is close enough to be a slip
+/// (a third of the name's length, at least one edit). Of equally close candidates the first wins.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let wanted = name.to_lowercase();
+    let limit = (name.chars().count() / 3).max(1);
+    let mut best: Option<(usize, &str)> = None;
+    for c in candidates {
+        let d = strsim::osa_distance(&wanted, &c.to_lowercase());
+        if d <= limit && best.is_none_or(|(b, _)| d < b) {
+            best = Some((d, c));
+        }
+    }
+    best.map(|(_, c)| c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::files::FileBytes;
+    use super::*;
+    use std::sync::Arc;
+
+    fn bytes(text: &str) -> Arc<FileBytes> {
+        Arc::new(FileBytes::Owned(text.as_bytes().to_vec()))
+    }
+
+    #[test]
+    fn a_diagnostic_shows_place_line_caret_help_and_include_chain() {
+        let mut sources = SourceMap::new();
+        let main = sources.add("main.pbrt", bytes("WorldBegin\nInclude \"g.pbrt\"\n"), None);
+        let include = Span { file: main, start: 11, len: 7 };
+        let inner = sources.add("g.pbrt", bytes("  Shape \"spheer\" \"float radius\" 1\n"), Some(include));
+        let d = Diagnostic::error(Span { file: inner, start: 8, len: 8 }, "unknown shape \"spheer\"")
+            .with_nearest("spheer", ["disk", "sphere"])
+            .with_related(Span { file: main, start: 0, len: 10 }, "the world begins here");
+        assert_eq!(
+            d.display(&sources).to_string(),
+            "g.pbrt:1:9: error: unknown shape \"spheer\"\n\
+             \x201 |   Shape \"spheer\" \"float radius\" 1\n\
+             \x20  |         ^^^^^^^^\n\
+             \x20 help: did you mean \"sphere\"?\n\
+             main.pbrt:1:1: note: the world begins here\n\
+             \x201 | WorldBegin\n\
+             \x20  | ^^^^^^^^^^\n\
+             \x20 included from main.pbrt:2:1"
+        );
+    }
+
+    #[test]
+    fn diagnostics_beyond_the_limit_are_counted() {
+        let mut sources = SourceMap::new();
+        let file = sources.add("a", bytes("x"), None);
+        let mut all = Diagnostics::new();
+        for i in 0..Diagnostics::LIMIT + 7 {
+            all.error(Span { file, start: 0, len: 1 }, format!("e{i}"));
+        }
+        assert_eq!((all.iter().count(), all.error_count(), all.dropped()), (100, 107, 7));
+        assert!(all.display(&sources).to_string().ends_with("… and 7 more\n"));
+    }
+
+    #[test]
+    fn nearest_suggests_slips_only() {
+        let names = ["sphere", "disk", "cylinder"];
+        assert_eq!(nearest("Spehre", names), Some("sphere"));
+        assert_eq!(nearest("disc", names), Some("disk"));
+        assert_eq!(nearest("torus", names), None);
+    }
+}
