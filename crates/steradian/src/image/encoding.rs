@@ -1,0 +1,103 @@
+//! How stored numbers relate to linear light.
+
+/// The curve between a stored value in [0, 1] and linear light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColorEncoding {
+    /// IEC 61966-2-1.
+    Srgb,
+    /// Stored values are linear.
+    Linear,
+    /// linear = stored^γ.
+    Gamma(f32),
+}
+
+impl ColorEncoding {
+    /// Reads `sRGB`, `linear` or `gamma <value>`, pbrt-v4's spelling; `None` for anything else.
+    pub fn parse(text: &str) -> Option<Self> {
+        match text {
+            "sRGB" => Some(Self::Srgb),
+            "linear" => Some(Self::Linear),
+            _ => {
+                let gamma: f32 = text.strip_prefix("gamma ")?.trim().parse().ok()?;
+                (gamma.is_finite() && gamma > 0.0).then_some(Self::Gamma(gamma))
+            }
+        }
+    }
+
+    /// Linear value of a stored value in [0, 1].
+    pub fn to_linear(self, stored: f32) -> f32 {
+        match self {
+            Self::Srgb => srgb_to_linear(stored),
+            Self::Linear => stored,
+            Self::Gamma(gamma) => stored.powf(gamma),
+        }
+    }
+
+    /// Stored value of a linear value; inverse of [`ColorEncoding::to_linear`].
+    pub fn from_linear(self, linear: f32) -> f32 {
+        match self {
+            Self::Srgb => linear_to_srgb(linear),
+            Self::Linear => linear,
+            Self::Gamma(gamma) => linear.max(0.0).powf(1.0 / gamma),
+        }
+    }
+
+    /// Nearest 8-bit code of a linear value; values outside [0, 1] saturate, NaN becomes 0.
+    pub fn quantize(self, linear: f32) -> u8 {
+        // The cast of a float to an integer saturates, and maps NaN to zero.
+        (self.from_linear(linear) * 255.0 + 0.5) as u8
+    }
+
+    /// Linear values of all 8-bit codes.
+    pub(crate) fn table(self) -> Box<[f32; 256]> {
+        Box::new(std::array::from_fn(|code| self.to_linear(code as f32 / 255.0)))
+    }
+}
+
+/// Linear value of an sRGB-encoded value (IEC 61966-2-1); odd in its argument.
+pub fn srgb_to_linear(v: f32) -> f32 {
+    let a = v.abs();
+    (if a <= 0.04045 { a / 12.92 } else { ((a + 0.055) / 1.055).powf(2.4) }).copysign(v)
+}
+
+/// sRGB-encoded value of a linear value (IEC 61966-2-1); odd in its argument.
+pub fn linear_to_srgb(v: f32) -> f32 {
+    let a = v.abs();
+    (if a <= 0.003_130_8 { a * 12.92 } else { 1.055 * a.powf(1.0 / 2.4) - 0.055 }).copysign(v)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_survives_decoding_and_quantising() {
+        for encoding in [ColorEncoding::Srgb, ColorEncoding::Linear, ColorEncoding::Gamma(2.2)] {
+            for (code, &linear) in encoding.table().iter().enumerate() {
+                assert_eq!(usize::from(encoding.quantize(linear)), code, "{encoding:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn srgb_passes_the_published_anchor() {
+        // IEC 61966-2-1: code 188 of 255 is 0.50289 of linear light, the branches meet at 0.0031308.
+        assert!((srgb_to_linear(188.0 / 255.0) - 0.502_886).abs() < 1e-5);
+        assert!((linear_to_srgb(0.003_130_8) - 0.040_449_9).abs() < 1e-6);
+    }
+
+    #[test]
+    fn quantising_saturates_and_turns_nan_black() {
+        assert_eq!(ColorEncoding::Srgb.quantize(7.0), 255);
+        assert_eq!(ColorEncoding::Srgb.quantize(-0.5), 0);
+        assert_eq!(ColorEncoding::Srgb.quantize(f32::NAN), 0);
+    }
+
+    #[test]
+    fn names_are_read_as_pbrt_spells_them() {
+        assert_eq!(ColorEncoding::parse("sRGB"), Some(ColorEncoding::Srgb));
+        assert_eq!(ColorEncoding::parse("gamma 2.2"), Some(ColorEncoding::Gamma(2.2)));
+        assert_eq!(ColorEncoding::parse("gamma -1"), None);
+        assert_eq!(ColorEncoding::parse("srgb"), None);
+    }
+}

@@ -1,0 +1,285 @@
+//! A decoded picture: texels in their stored precision, read as linear values.
+
+use super::encoding::ColorEncoding;
+use super::error::ImageError;
+use super::wrap::Wrap;
+use crate::math::{Vec2, Vec3};
+use exr::prelude::f16;
+
+/// What the channels of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// One channel.
+    Gray,
+    /// Red, green, blue.
+    Rgb,
+    /// Red, green, blue and alpha, not premultiplied by this library.
+    Rgba,
+}
+
+impl Layout {
+    /// Channels per texel.
+    pub const fn channels(self) -> usize {
+        match self {
+            Self::Gray => 1,
+            Self::Rgb => 3,
+            Self::Rgba => 4,
+        }
+    }
+}
+
+/// Texels in the precision of their file.
+#[derive(Clone, Debug)]
+enum Texels {
+    /// 8-bit codes; `linear` holds the decoded value of each code.
+    U8 {
+        codes: Vec<u8>,
+        encoding: ColorEncoding,
+        linear: Box<[f32; 256]>,
+    },
+    F16(Vec<f16>),
+    F32(Vec<f32>),
+}
+
+/// A picture in memory. Row 0 is the top; texel (x, y) covers [x, x+1) × [y, y+1).
+///
+/// 8-bit pictures stay 8-bit and are decoded per lookup through a table of 256 values. The encoding
+/// applies to the alpha channel as well, as in pbrt-v4.
+#[derive(Clone, Debug)]
+pub struct Image {
+    width: u32,
+    height: u32,
+    layout: Layout,
+    texels: Texels,
+}
+
+/// Four texels and their bilinear weights; `None` lies in the black.
+type Taps = [(Option<usize>, f32); 4];
+
+impl Image {
+    /// A picture from 8-bit codes, channels interleaved, rows from the top.
+    ///
+    /// # Errors
+    /// When a side is zero or the number of codes does not fit the size.
+    pub fn from_u8(
+        width: u32,
+        height: u32,
+        layout: Layout,
+        codes: Vec<u8>,
+        encoding: ColorEncoding,
+    ) -> Result<Self, ImageError> {
+        check_len(width, height, layout, codes.len())?;
+        Ok(Self { width, height, layout, texels: Texels::U8 { codes, encoding, linear: encoding.table() } })
+    }
+
+    /// A picture from linear half-precision values, channels interleaved, rows from the top.
+    ///
+    /// # Errors
+    /// When a side is zero or the number of values does not fit the size.
+    pub fn from_f16(width: u32, height: u32, layout: Layout, values: Vec<f16>) -> Result<Self, ImageError> {
+        check_len(width, height, layout, values.len())?;
+        Ok(Self { width, height, layout, texels: Texels::F16(values) })
+    }
+
+    /// A picture from linear values, channels interleaved, rows from the top.
+    ///
+    /// # Errors
+    /// When a side is zero or the number of values does not fit the size.
+    pub fn from_f32(width: u32, height: u32, layout: Layout, values: Vec<f32>) -> Result<Self, ImageError> {
+        check_len(width, height, layout, values.len())?;
+        Ok(Self { width, height, layout, texels: Texels::F32(values) })
+    }
+
+    /// A picture of the same storage (precision and encoding) as this one from linear values.
+    pub(crate) fn like(&self, width: u32, height: u32, linear: &[f32]) -> Result<Self, ImageError> {
+        let l = self.layout;
+        match &self.texels {
+            Texels::U8 { encoding, .. } => Self::from_u8(
+                width,
+                height,
+                l,
+                linear.iter().map(|&v| encoding.quantize(v)).collect(),
+                *encoding,
+            ),
+            Texels::F16(_) => {
+                Self::from_f16(width, height, l, linear.iter().map(|&v| f16::from_f32(v)).collect())
+            }
+            Texels::F32(_) => Self::from_f32(width, height, l, linear.to_vec()),
+        }
+    }
+
+    /// Width [px], not zero.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height [px], not zero.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// What the channels are.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Memory of the texels [B].
+    pub fn bytes(&self) -> usize {
+        match &self.texels {
+            Texels::U8 { codes, .. } => codes.len(),
+            Texels::F16(v) => v.len() * 2,
+            Texels::F32(v) => v.len() * 4,
+        }
+    }
+
+    /// Linear value of channel `c` at texel (x, y). Coordinates beyond the picture are a broken invariant.
+    pub fn texel(&self, x: u32, y: u32, c: usize) -> f32 {
+        debug_assert!(x < self.width && y < self.height && c < self.layout.channels());
+        self.value(self.base(x, y) + c)
+    }
+
+    /// Linear red, green and blue at texel (x, y); a gray picture has three equal values.
+    pub fn rgb(&self, x: u32, y: u32) -> Vec3 {
+        self.rgb_at(self.base(x, y))
+    }
+
+    /// The one number that a float texture reads at texel (x, y): the value of a gray picture, the mean of an
+    /// RGB one, the alpha of an RGBA one.
+    ///
+    /// This is pbrt-v4's rule for interpolated lookups, made for cut-out masks that come as RGBA pictures. For
+    /// lookups of single texels (nearest, EWA) pbrt reads the first channel instead; we keep one rule, so that
+    /// the filter does not change what is filtered.
+    pub fn scalar(&self, x: u32, y: u32) -> f32 {
+        self.scalar_at(self.base(x, y))
+    }
+
+    /// [`Image::rgb`] at coordinates that may lie beyond the picture.
+    pub(crate) fn rgb_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> Vec3 {
+        wrap.resolve(x, y, self.width, self.height).map_or(Vec3::ZERO, |[x, y]| self.rgb(x, y))
+    }
+
+    /// [`Image::scalar`] at coordinates that may lie beyond the picture.
+    pub(crate) fn scalar_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> f32 {
+        wrap.resolve(x, y, self.width, self.height).map_or(0.0, |[x, y]| self.scalar(x, y))
+    }
+
+    /// Bilinear interpolation of [`Image::rgb`] at `st`, where [0, 1]² is the picture and t points down.
+    pub fn bilerp_rgb(&self, st: Vec2, wrap: Wrap) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for (base, weight) in self.taps(st, wrap) {
+            if let Some(base) = base {
+                sum += self.rgb_at(base) * weight;
+            }
+        }
+        sum
+    }
+
+    /// Bilinear interpolation of [`Image::scalar`] at `st`, where [0, 1]² is the picture and t points down.
+    pub fn bilerp_scalar(&self, st: Vec2, wrap: Wrap) -> f32 {
+        let mut sum = 0.0;
+        for (base, weight) in self.taps(st, wrap) {
+            if let Some(base) = base {
+                sum += self.scalar_at(base) * weight;
+            }
+        }
+        sum
+    }
+
+    /// Bilinear interpolation of channel `c` at `st`, where [0, 1]² is the picture and t points down.
+    pub fn bilerp_channel(&self, st: Vec2, c: usize, wrap: Wrap) -> f32 {
+        debug_assert!(c < self.layout.channels());
+        let mut sum = 0.0;
+        for (base, weight) in self.taps(st, wrap) {
+            if let Some(base) = base {
+                sum += self.value(base + c) * weight;
+            }
+        }
+        sum
+    }
+
+    /// Whether alpha is one everywhere, or there is none.
+    pub fn is_opaque(&self) -> bool {
+        self.layout != Layout::Rgba
+            || (0..self.width as usize * self.height as usize).all(|i| self.value(i * 4 + 3) == 1.0)
+    }
+
+    /// The same picture without an alpha channel.
+    #[must_use]
+    pub fn without_alpha(self) -> Self {
+        fn drop<T: Copy>(v: Vec<T>) -> Vec<T> {
+            v.chunks_exact(4).flat_map(|t| [t[0], t[1], t[2]]).collect()
+        }
+        if self.layout != Layout::Rgba {
+            return self;
+        }
+        let texels = match self.texels {
+            Texels::U8 { codes, encoding, linear } => Texels::U8 { codes: drop(codes), encoding, linear },
+            Texels::F16(v) => Texels::F16(drop(v)),
+            Texels::F32(v) => Texels::F32(drop(v)),
+        };
+        Self { layout: Layout::Rgb, texels, ..self }
+    }
+
+    /// All linear values, channels interleaved.
+    pub(crate) fn to_linear(&self) -> Vec<f32> {
+        (0..self.width as usize * self.height as usize * self.layout.channels())
+            .map(|i| self.value(i))
+            .collect()
+    }
+
+    fn taps(&self, st: Vec2, wrap: Wrap) -> Taps {
+        let (x, y) = (st.x * self.width as f32 - 0.5, st.y * self.height as f32 - 0.5);
+        let (x0, y0) = (x.floor(), y.floor());
+        let (dx, dy) = (x - x0, y - y0);
+        let (x0, y0) = (x0 as i32, y0 as i32);
+        let (x1, y1) = (x0.saturating_add(1), y0.saturating_add(1));
+        let at = |x, y| wrap.resolve(x, y, self.width, self.height).map(|[x, y]| self.base(x, y));
+        [
+            (at(x0, y0), (1.0 - dx) * (1.0 - dy)),
+            (at(x1, y0), dx * (1.0 - dy)),
+            (at(x0, y1), (1.0 - dx) * dy),
+            (at(x1, y1), dx * dy),
+        ]
+    }
+
+    fn base(&self, x: u32, y: u32) -> usize {
+        (y as usize * self.width as usize + x as usize) * self.layout.channels()
+    }
+
+    fn value(&self, i: usize) -> f32 {
+        match &self.texels {
+            Texels::U8 { codes, linear, .. } => linear[usize::from(codes[i])],
+            Texels::F16(v) => v[i].to_f32(),
+            Texels::F32(v) => v[i],
+        }
+    }
+
+    fn rgb_at(&self, base: usize) -> Vec3 {
+        match self.layout {
+            Layout::Gray => Vec3::splat(self.value(base)),
+            Layout::Rgb | Layout::Rgba => {
+                Vec3::new(self.value(base), self.value(base + 1), self.value(base + 2))
+            }
+        }
+    }
+
+    fn scalar_at(&self, base: usize) -> f32 {
+        match self.layout {
+            Layout::Gray => self.value(base),
+            Layout::Rgb => self.rgb_at(base).element_sum() / 3.0,
+            Layout::Rgba => self.value(base + 3),
+        }
+    }
+}
+
+fn check_len(width: u32, height: u32, layout: Layout, found: usize) -> Result<(), ImageError> {
+    let channels = layout.channels();
+    let expected = u64::from(width) * u64::from(height) * channels as u64;
+    // Texel coordinates are i32 and grow by one beyond the edge.
+    let side = 1..=i32::MAX as u32 / 2;
+    if side.contains(&width) && side.contains(&height) && expected == found as u64 {
+        Ok(())
+    } else {
+        Err(ImageError::WrongSize { width, height, channels, found })
+    }
+}
