@@ -153,13 +153,13 @@ impl Image {
         self.scalar_at(self.base(x, y))
     }
 
-    /// [`Image::rgb`] at coordinates that may lie beyond the picture.
-    pub(crate) fn rgb_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> Vec3 {
+    /// [`Image::rgb`] at coordinates that may lie beyond the picture, where `wrap` decides.
+    pub fn rgb_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> Vec3 {
         wrap.resolve(x, y, self.width, self.height).map_or(Vec3::ZERO, |[x, y]| self.rgb(x, y))
     }
 
-    /// [`Image::scalar`] at coordinates that may lie beyond the picture.
-    pub(crate) fn scalar_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> f32 {
+    /// [`Image::scalar`] at coordinates that may lie beyond the picture, where `wrap` decides.
+    pub fn scalar_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> f32 {
         wrap.resolve(x, y, self.width, self.height).map_or(0.0, |[x, y]| self.scalar(x, y))
     }
 
@@ -246,7 +246,8 @@ impl Image {
         (y as usize * self.width as usize + x as usize) * self.layout.channels()
     }
 
-    fn value(&self, i: usize) -> f32 {
+    /// Linear value of the i-th sample in storage order.
+    pub(super) fn value(&self, i: usize) -> f32 {
         match &self.texels {
             Texels::U8 { codes, linear, .. } => linear[usize::from(codes[i])],
             Texels::F16(v) => v[i].to_f32(),
@@ -281,5 +282,84 @@ fn check_len(width: u32, height: u32, layout: Layout, found: usize) -> Result<()
         Ok(())
     } else {
         Err(ImageError::WrongSize { width, height, channels, found })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn ramp() -> Image {
+        // value = 10 y + x + c/10
+        let values = (0..4 * 3 * 3)
+            .map(|i| {
+                let (pixel, c) = (i / 3, i % 3);
+                (10 * (pixel / 4) + pixel % 4) as f32 + c as f32 / 10.0
+            })
+            .collect();
+        Image::from_f32(4, 3, Layout::Rgb, values).unwrap()
+    }
+
+    #[test]
+    fn interpolation_meets_texel_centres_and_is_linear_between() {
+        let image = ramp();
+        for y in 0..3 {
+            for x in 0..4 {
+                let st = Vec2::new((x as f32 + 0.5) / 4.0, (y as f32 + 0.5) / 3.0);
+                assert!((image.bilerp_rgb(st, Wrap::CLAMP) - image.rgb(x, y)).abs().max_element() < 1e-5);
+            }
+        }
+        let st = Vec2::new(1.75 / 4.0, 1.0 / 3.0);
+        // x = 1.25, y = 0.5 in texel centres: 10·0.5 + 1.25.
+        assert!((image.bilerp_channel(st, 0, Wrap::CLAMP) - 6.25).abs() < 1e-5);
+    }
+
+    #[test]
+    fn beyond_the_edge_each_wrap_does_as_it_says() {
+        let image = ramp();
+        let left = Vec2::new(-0.125, 0.5);
+        assert!((image.bilerp_channel(left, 0, Wrap::CLAMP) - 10.0).abs() < 1e-5);
+        assert!((image.bilerp_channel(left, 0, Wrap::REPEAT) - 13.0).abs() < 1e-5);
+        assert_eq!(image.bilerp_channel(left, 0, Wrap::BLACK), 0.0);
+        // On the edge itself black fades in: half of the texel's value.
+        assert!((image.bilerp_channel(Vec2::new(0.0, 0.5), 0, Wrap::BLACK) - 5.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_scalar_is_the_gray_value_the_mean_of_rgb_or_alpha() {
+        let scalar = |layout, values| Image::from_f32(1, 1, layout, values).unwrap().scalar(0, 0);
+        assert_eq!(scalar(Layout::Gray, vec![0.7]), 0.7);
+        assert_eq!(scalar(Layout::Rgb, vec![0.25, 0.5, 0.75]), 0.5);
+        assert_eq!(scalar(Layout::Rgba, vec![0.25, 0.5, 0.75, 0.125]), 0.125);
+    }
+
+    #[test]
+    fn dropping_alpha_keeps_the_colours() {
+        let image =
+            Image::from_f32(2, 1, Layout::Rgba, vec![1.0, 2.0, 3.0, 1.0, 4.0, 5.0, 6.0, 1.0]).unwrap();
+        assert!(image.is_opaque());
+        let rgb = image.without_alpha();
+        assert_eq!(rgb.to_linear(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn sizes_that_do_not_fit_are_refused() {
+        assert!(Image::from_f32(2, 2, Layout::Rgb, vec![0.0; 11]).is_err());
+        assert!(Image::from_f32(0, 2, Layout::Rgb, vec![]).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn interpolation_stays_within_the_texels_wherever_it_is_asked(
+            s in prop_oneof![-3.0_f32..3.0, -1e12_f32..1e12],
+            t in prop_oneof![-3.0_f32..3.0, -1e12_f32..1e12],
+        ) {
+            let image = ramp();
+            for wrap in [Wrap::REPEAT, Wrap::CLAMP, Wrap::BLACK, Wrap::OctahedralSphere] {
+                let v = image.bilerp_channel(Vec2::new(s, t), 0, wrap);
+                prop_assert!((-1e-4..=23.0 + 1e-4).contains(&v), "{wrap:?}: {v}");
+            }
+        }
     }
 }

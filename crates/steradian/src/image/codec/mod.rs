@@ -100,7 +100,7 @@ mod tests {
         let rgb = DynamicImage::ImageRgb8(pattern(5, 4));
         let float = DynamicImage::ImageRgb32F(rgb.to_rgb32f());
         let mut pfm = Vec::new();
-        super::pfm::encode(&mut pfm, 5, float.as_flat_samples_f32().unwrap().samples).unwrap();
+        pfm::encode(&mut pfm, 5, float.as_flat_samples_f32().unwrap().samples).unwrap();
         let half = || FlatSamples::F16((0..20).map(|i| f16::from_f32(i as f32 * 0.25)).collect());
         vec![
             ("png", encoded(&rgb, ImageFormat::Png)),
