@@ -23,6 +23,17 @@ pub enum Mode {
     Importance,
 }
 
+impl Mode {
+    /// The mode of the same path walked from its other end.
+    #[must_use]
+    pub fn adjoint(self) -> Self {
+        match self {
+            Self::Radiance => Self::Importance,
+            Self::Importance => Self::Radiance,
+        }
+    }
+}
+
 /// Which side of the surface a sampled direction leaves to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -30,6 +41,56 @@ pub enum Side {
     Reflection,
     /// Opposite side.
     Transmission,
+}
+
+/// Which sides are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// Reflection and transmission, chosen between in proportion to their power.
+    Both,
+    /// Reflection only.
+    Reflection,
+    /// Transmission only.
+    Transmission,
+}
+
+impl Sides {
+    /// Chooses a side with the asked-for shares of `reflected` and `transmitted` power; `None` when nothing
+    /// of what is asked for is left.
+    pub(crate) fn choose(self, reflected: f32, transmitted: f32, uc: f32) -> Option<ChosenSide> {
+        let (r, t) = self.shares(reflected, transmitted)?;
+        let p = r / (r + t);
+        Some(if uc < p {
+            ChosenSide { side: Side::Reflection, probability: p }
+        } else {
+            ChosenSide { side: Side::Transmission, probability: t / (r + t) }
+        })
+    }
+
+    /// Probability of [`Sides::choose`] for `side`.
+    pub(crate) fn probability(self, side: Side, reflected: f32, transmitted: f32) -> f32 {
+        match (self.shares(reflected, transmitted), side) {
+            (Some((r, t)), Side::Reflection) => r / (r + t),
+            (Some((r, t)), Side::Transmission) => t / (r + t),
+            (None, _) => 0.0,
+        }
+    }
+
+    fn shares(self, reflected: f32, transmitted: f32) -> Option<(f32, f32)> {
+        let shares = match self {
+            Self::Both => (reflected, transmitted),
+            Self::Reflection => (reflected, 0.0),
+            Self::Transmission => (0.0, transmitted),
+        };
+        (shares.0 + shares.1 > 0.0).then_some(shares)
+    }
+}
+
+/// A side with the probability of having chosen it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChosenSide {
+    pub(crate) side: Side,
+    pub(crate) probability: f32,
 }
 
 /// How wide the sampled lobe is.

@@ -1,5 +1,124 @@
 //! Scattering functions: the closed set, in local coordinates.
+//!
+//! The contract of every method stands in [`contract`]; each variant's file documents only what differs.
 
+pub mod conductor;
 pub mod contract;
+pub mod dielectric;
+pub mod diffuse;
+pub mod layered;
+pub mod specimen;
 
+pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
+pub use dielectric::{Dielectric, ThinDielectric};
+pub use diffuse::{Diffuse, DiffuseTransmission};
+pub use layered::{Coat, Layered};
+pub use specimen::{Claims, Specimen};
+
+use crate::math::{LocalDir, Vec2};
+use crate::spectrum::Sampled;
+use crate::units::{PdfSolidAngle, PerSteradian};
+
+/// How a surface scatters light at one point and at one path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub enum Bsdf {
+    /// Lambertian reflection.
+    Diffuse(Diffuse),
+    /// Lambertian reflection and transmission.
+    DiffuseTransmission(DiffuseTransmission),
+    /// A metal.
+    Conductor(Conductor),
+    /// The interface between two transparent media.
+    Dielectric(Dielectric),
+    /// A pane without thickness.
+    ThinDielectric(ThinDielectric),
+    /// A dielectric coat over a Lambertian base.
+    CoatedDiffuse(Layered<Diffuse>),
+    /// A dielectric coat over a metal.
+    CoatedConductor(Layered<Conductor>),
+}
+
+// One per path vertex, passed by value.
+const _: () = assert!(size_of::<Bsdf>() <= 192);
+
+impl Bsdf {
+    /// f [sr⁻¹] for light that arrives from `wi` and is seen from `wo`, without the cosine and without
+    /// discrete directions. Zero for directions in the surface; never NaN.
+    pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
+        match self {
+            Self::Diffuse(b) => b.eval(wo, wi),
+            Self::DiffuseTransmission(b) => b.eval(wo, wi),
+            Self::Conductor(b) => b.eval(wo, wi),
+            Self::Dielectric(b) => b.eval(wo, wi, mode),
+            Self::ThinDielectric(_) => Sampled::ZERO,
+            Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
+            Self::CoatedConductor(b) => b.eval(wo, wi, mode),
+        }
+    }
+
+    /// Density of `wi` among the continuous directions that [`Bsdf::sample`] draws for `wo`.
+    pub fn pdf(&self, wo: LocalDir, wi: LocalDir, _mode: Mode) -> PdfSolidAngle {
+        match self {
+            Self::Diffuse(b) => b.pdf(wo, wi),
+            Self::DiffuseTransmission(b) => b.pdf(wo, wi),
+            Self::Conductor(b) => b.pdf(wo, wi),
+            Self::Dielectric(b) => b.pdf(wo, wi),
+            Self::ThinDielectric(_) => PdfSolidAngle(0.0),
+            Self::CoatedDiffuse(b) => b.pdf(wo, wi),
+            Self::CoatedConductor(b) => b.pdf(wo, wi),
+        }
+    }
+
+    /// Draws `wi` for `wo` with `uc` ∈ [0, 1) for the choice among lobes and `u` ∈ [0, 1)² for the direction;
+    /// `None` when the light is absorbed or falls to the wrong side of the surface.
+    pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        match self {
+            Self::Diffuse(b) => b.sample(wo, u),
+            Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
+            Self::Conductor(b) => b.sample(wo, u),
+            Self::Dielectric(b) => b.sample(wo, uc, u, mode),
+            Self::ThinDielectric(b) => b.sample(wo, uc),
+            Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
+            Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
+        }
+    }
+
+    /// Which continuous lobes are present.
+    pub fn lobes(&self) -> Lobes {
+        match self {
+            Self::Diffuse(b) => b.lobes(),
+            Self::DiffuseTransmission(b) => b.lobes(),
+            Self::Conductor(b) => b.lobes(),
+            Self::Dielectric(b) => b.lobes(),
+            Self::ThinDielectric(_) => Lobes::default(),
+            Self::CoatedDiffuse(b) => b.lobes(),
+            Self::CoatedConductor(b) => b.lobes(),
+        }
+    }
+
+    /// Widens narrow lobes after a wide one, so that no path finds a light by luck alone: a named bias,
+    /// off unless asked for (pbrt-v4 book, 14.2).
+    pub fn regularize(&mut self) {
+        match self {
+            Self::Diffuse(_) | Self::DiffuseTransmission(_) | Self::ThinDielectric(_) => {}
+            Self::Conductor(b) => b.regularize(),
+            Self::Dielectric(b) => b.regularize(),
+            Self::CoatedDiffuse(b) => b.regularize(),
+            Self::CoatedConductor(b) => b.regularize(),
+        }
+    }
+
+    /// The specimens of every variant.
+    pub fn specimens() -> Vec<Specimen<Self>> {
+        let mut all = Vec::new();
+        all.extend(Diffuse::specimens().map(|s| s.map(Self::Diffuse)));
+        all.extend(DiffuseTransmission::specimens().map(|s| s.map(Self::DiffuseTransmission)));
+        all.extend(Conductor::specimens().map(|s| s.map(Self::Conductor)));
+        all.extend(Dielectric::specimens().map(|s| s.map(Self::Dielectric)));
+        all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));
+        all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
+        all.extend(Layered::<Conductor>::specimens().map(|s| s.map(Self::CoatedConductor)));
+        all
+    }
+}

@@ -1,1 +1,12 @@
-//! optics
+//! Physics of one interface or one medium: Fresnel, Snell, microfacets, phase functions, absorption.
+//!
+//! Nothing here knows a scene, a texture or a path; randomness is an argument.
+
+pub mod absorption;
+pub mod fresnel;
+pub mod microfacet;
+pub mod phase;
+pub mod refraction;
+
+pub use microfacet::TrowbridgeReitz;
+pub use phase::HenyeyGreenstein;

@@ -1,0 +1,112 @@
+//! Reflection from metals, smooth or rough.
+
+use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::specimen::{Claims, Specimen};
+use crate::math::{LocalDir, Vec2, Vec3};
+use crate::optics::{TrowbridgeReitz, fresnel, refraction};
+use crate::spectrum::Sampled;
+use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
+
+/// A metal with complex index eta + j k relative to the outside, alike on both sides of the surface.
+///
+/// Light that meets a second microfacet is lost (single scattering): a rough lossless metal reflects less
+/// than one.
+#[derive(Clone, Copy, Debug)]
+pub struct Conductor {
+    /// Real part of the relative index.
+    pub eta: Sampled<Unitless>,
+    /// Imaginary part of the relative index.
+    pub k: Sampled<Unitless>,
+    /// Distribution of the microfacets.
+    pub roughness: TrowbridgeReitz,
+}
+
+impl Conductor {
+    /// f [sr⁻¹] = D F G / (4 cosθo cosθi), Walter et al. 2007, eq. 20; zero where the metal is smooth.
+    pub fn eval(&self, wo: LocalDir, wi: LocalDir) -> Sampled<PerSteradian> {
+        let Some(wm) = self.halfway(wo, wi) else { return Sampled::ZERO };
+        let d = self.roughness.d(wm) * self.roughness.g(wo, wi) / (4.0 * (wo.z * wi.z).abs());
+        (self.fresnel(wo.dot(*wm)) * d).cast()
+    }
+
+    /// Density of [`Conductor::sample`]; zero where the metal is smooth.
+    pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
+        PdfSolidAngle(self.halfway(wo, wi).map_or(0.0, |wm| self.density(wo, wm)))
+    }
+
+    /// A direction mirrored at a visible microfacet; `None` when it falls below the horizon.
+    pub fn sample(&self, wo: LocalDir, u: Vec2) -> Option<BsdfSample> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        if self.roughness.is_smooth() {
+            return Some(BsdfSample {
+                wi: LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z)),
+                weight: self.fresnel(wo.z),
+                density: Density::Delta,
+                side: Side::Reflection,
+                lobe: Lobe::Specular,
+                eta: 1.0,
+            });
+        }
+        let wm = self.roughness.sample_visible(wo, u);
+        let wi = LocalDir::new_unchecked(refraction::reflect(*wo, *wm));
+        if !wo.same_hemisphere(wi) {
+            return None;
+        }
+        // D and the cosines cancel: f cosθi / p = F G / G1(wo).
+        let shadowing = self.roughness.g(wo, wi) / self.roughness.g1(wo);
+        Some(BsdfSample {
+            wi,
+            weight: self.fresnel(wo.dot(*wm)) * shadowing,
+            density: Density::SolidAngle(PdfSolidAngle(self.density(wo, wm))),
+            side: Side::Reflection,
+            lobe: Lobe::Glossy,
+            eta: 1.0,
+        })
+    }
+
+    /// Which lobes are present.
+    pub fn lobes(&self) -> Lobes {
+        Lobes { reflection: !self.roughness.is_smooth(), transmission: false }
+    }
+
+    /// Widens a narrow lobe: a named bias against fireflies.
+    pub fn regularize(&mut self) {
+        self.roughness = self.roughness.regularized();
+    }
+
+    /// Examples for the conformance suite.
+    pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
+        let gold = |ax, ay| Self {
+            eta: Sampled::from_array([1.37, 1.46, 0.35, 0.13]),
+            k: Sampled::from_array([1.77, 1.95, 2.71, 4.07]),
+            roughness: TrowbridgeReitz::new(ax, ay),
+        };
+        [
+            Specimen::new("conductor smooth", Claims::CLOSED_FORM, gold(0.0, 0.0)),
+            Specimen::new("conductor rough 0.1", Claims::CLOSED_FORM, gold(0.1, 0.1)),
+            Specimen::new("conductor rough 0.5", Claims::CLOSED_FORM, gold(0.5, 0.5)),
+            Specimen::new("conductor brushed", Claims::CLOSED_FORM, gold(0.15, 0.6)),
+        ]
+        .into_iter()
+    }
+
+    fn fresnel(&self, cos: f32) -> Sampled<Unitless> {
+        Sampled::from_fn(|i| fresnel::conductor(cos, self.eta[i], self.k[i]))
+    }
+
+    /// Density of the reflected direction: the visible normals' over the Jacobian 4 |wo·wm|.
+    fn density(&self, wo: LocalDir, wm: LocalDir) -> f32 {
+        self.roughness.visible_pdf(wo, wm) / (4.0 * wo.dot(*wm).abs())
+    }
+
+    /// The upper facet normal that mirrors `wo` to `wi`; `None` when there is none.
+    fn halfway(&self, wo: LocalDir, wi: LocalDir) -> Option<LocalDir> {
+        if self.roughness.is_smooth() || !wo.same_hemisphere(wi) {
+            return None;
+        }
+        let wm = LocalDir::new(*wo + *wi)?;
+        Some(if wm.z < 0.0 { -wm } else { wm })
+    }
+}

@@ -1,0 +1,277 @@
+//! The interface between two transparent media, smooth or rough, and a thin pane of two such interfaces.
+
+use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side, Sides};
+use super::specimen::{Claims, Specimen};
+use crate::math::{LocalDir, Vec2, Vec3};
+use crate::optics::{TrowbridgeReitz, fresnel, refraction};
+use crate::spectrum::Sampled;
+use crate::units::{Density, PdfSolidAngle, PerSteradian};
+
+/// An interface between transparent media.
+///
+/// The index is one number: where it depends on the wavelength, the path carries its hero only.
+#[derive(Clone, Copy, Debug)]
+pub struct Dielectric {
+    /// Index below the surface over the index above it.
+    pub eta: f32,
+    /// Distribution of the microfacets.
+    pub roughness: TrowbridgeReitz,
+}
+
+/// Value and density of a pair of directions, alike at every wavelength.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Evaluation {
+    /// f [sr⁻¹].
+    pub(crate) f: f32,
+    /// [sr⁻¹].
+    pub(crate) pdf: f32,
+}
+
+/// A drawn direction, alike at every wavelength.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Draw {
+    pub(crate) wi: LocalDir,
+    /// f·|cosθi|/p.
+    pub(crate) weight: f32,
+    /// Density [sr⁻¹]; `None` for a discrete direction.
+    pub(crate) pdf: Option<f32>,
+    pub(crate) side: Side,
+    pub(crate) eta: f32,
+}
+
+impl Dielectric {
+    /// f [sr⁻¹]; Walter et al. 2007, eq. 20 and 21, the latter over η² for radiance.
+    pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
+        self.evaluate(wo, wi, mode, Sides::Both).map_or(Sampled::ZERO, |e| Sampled::splat(e.f))
+    }
+
+    /// Density of [`Dielectric::sample`]; zero where the interface is smooth.
+    pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
+        // The density does not depend on what is transported.
+        PdfSolidAngle(self.evaluate(wo, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf))
+    }
+
+    /// A direction mirrored or refracted at a visible microfacet, chosen with `uc` by its reflectance.
+    pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        let drawn = self.draw(wo, uc, u, mode, Sides::Both)?;
+        let (density, lobe) = match drawn.pdf {
+            Some(pdf) => (Density::SolidAngle(PdfSolidAngle(pdf)), Lobe::Glossy),
+            None => (Density::Delta, Lobe::Specular),
+        };
+        Some(BsdfSample {
+            wi: drawn.wi,
+            weight: Sampled::splat(drawn.weight),
+            density,
+            side: drawn.side,
+            lobe,
+            eta: drawn.eta,
+        })
+    }
+
+    /// Which lobes are present.
+    pub fn lobes(&self) -> Lobes {
+        let rough = !self.is_specular();
+        Lobes { reflection: rough, transmission: rough }
+    }
+
+    /// Widens a narrow lobe: a named bias against fireflies.
+    pub fn regularize(&mut self) {
+        self.roughness = self.roughness.regularized();
+    }
+
+    /// Examples for the conformance suite.
+    pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
+        let of = |eta, ax, ay| Self { eta, roughness: TrowbridgeReitz::new(ax, ay) };
+        [
+            Specimen::new("dielectric smooth", Claims::LOSSLESS, of(1.5, 0.0, 0.0)),
+            Specimen::new("dielectric smooth, less dense", Claims::LOSSLESS, of(0.75, 0.0, 0.0)),
+            Specimen::new("dielectric without contrast", Claims::LOSSLESS, of(1.0, 0.3, 0.3)),
+            Specimen::new("dielectric rough 0.1", Claims::CLOSED_FORM, of(1.5, 0.1, 0.1)),
+            Specimen::new("dielectric rough 0.5", Claims::CLOSED_FORM, of(1.5, 0.5, 0.5)),
+            Specimen::new("dielectric rough, less dense", Claims::CLOSED_FORM, of(1.0 / 1.33, 0.3, 0.3)),
+            Specimen::new("dielectric brushed", Claims::CLOSED_FORM, of(1.5, 0.2, 0.6)),
+        ]
+        .into_iter()
+    }
+
+    /// Whether only discrete directions are scattered into: smooth, or no contrast to refract at.
+    pub(crate) fn is_specular(&self) -> bool {
+        self.eta == 1.0 || self.roughness.is_smooth()
+    }
+
+    /// Value and density for a rough interface; `None` where both are zero.
+    #[inline]
+    pub(crate) fn evaluate(
+        &self,
+        wo: LocalDir,
+        wi: LocalDir,
+        mode: Mode,
+        sides: Sides,
+    ) -> Option<Evaluation> {
+        if self.is_specular() || wo.z == 0.0 || wi.z == 0.0 {
+            return None;
+        }
+        let side = if wo.z * wi.z > 0.0 { Side::Reflection } else { Side::Transmission };
+        let eta = match side {
+            Side::Reflection => 1.0,
+            Side::Transmission if wo.z > 0.0 => self.eta,
+            Side::Transmission => 1.0 / self.eta,
+        };
+        let wm = LocalDir::new(*wi * eta + *wo)?;
+        let wm = if wm.z < 0.0 { -wm } else { wm };
+        let (om, im) = (wo.dot(*wm), wi.dot(*wm));
+        // Both directions must see the facet from the side on which they see the surface.
+        if im * wi.z <= 0.0 || om * wo.z <= 0.0 {
+            return None;
+        }
+        let r = fresnel::dielectric(om, self.eta);
+        let probability = sides.probability(side, r, 1.0 - r);
+        let d = self.roughness.d(wm);
+        let (lambda_o, lambda_i) = (self.roughness.lambda(wo), self.roughness.lambda(wi));
+        let g = 1.0 / (1.0 + lambda_o + lambda_i);
+        let visible = d * om.abs() / ((1.0 + lambda_o) * wo.abs_cos_theta());
+        let cosines = (wo.z * wi.z).abs();
+        Some(match side {
+            Side::Reflection => {
+                Evaluation { f: d * g * r / (4.0 * cosines), pdf: visible / (4.0 * om.abs()) * probability }
+            }
+            Side::Transmission => {
+                let root = im + om / eta;
+                let jacobian = im.abs() / (root * root);
+                let f = (1.0 - r) * d * g * om.abs() * jacobian / cosines;
+                Evaluation { f: f * radiance_scale(mode, eta), pdf: visible * jacobian * probability }
+            }
+        })
+    }
+
+    /// Draws among the asked-for `sides`; `None` below the horizon or when nothing goes there.
+    #[inline]
+    pub(crate) fn draw(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode, sides: Sides) -> Option<Draw> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        if self.is_specular() {
+            return self.draw_specular(wo, uc, mode, sides);
+        }
+        let wm = self.roughness.sample_visible(wo, u);
+        let om = wo.dot(*wm);
+        let r = fresnel::dielectric(om, self.eta);
+        let chosen = sides.choose(r, 1.0 - r, uc)?;
+        let visible = |r: &TrowbridgeReitz| r.visible_pdf(wo, wm) * chosen.probability;
+        // D and the cosines cancel: f cosθi / p = R G / (G1(wo) P), and likewise with 1 − R.
+        let shadowing = |wi: LocalDir| {
+            let lambda_o = self.roughness.lambda(wo);
+            (1.0 + lambda_o) / (1.0 + lambda_o + self.roughness.lambda(wi)) / chosen.probability
+        };
+        match chosen.side {
+            Side::Reflection => {
+                let wi = LocalDir::new_unchecked(refraction::reflect(*wo, *wm));
+                let pdf = visible(&self.roughness) / (4.0 * om.abs());
+                wo.same_hemisphere(wi).then(|| Draw {
+                    wi,
+                    weight: r * shadowing(wi),
+                    pdf: Some(pdf),
+                    side: Side::Reflection,
+                    eta: 1.0,
+                })
+            }
+            Side::Transmission => {
+                let refracted = refraction::refract(*wo, *wm, self.eta)?;
+                let wi = LocalDir::new_unchecked(refracted.w);
+                if wo.z * wi.z >= 0.0 {
+                    return None;
+                }
+                let im = wi.dot(*wm);
+                let root = im + om / refracted.eta;
+                Some(Draw {
+                    wi,
+                    weight: (1.0 - r) * shadowing(wi) * radiance_scale(mode, refracted.eta),
+                    pdf: Some(visible(&self.roughness) * im.abs() / (root * root)),
+                    side: Side::Transmission,
+                    eta: refracted.eta,
+                })
+            }
+        }
+    }
+
+    fn draw_specular(&self, wo: LocalDir, uc: f32, mode: Mode, sides: Sides) -> Option<Draw> {
+        let r = fresnel::dielectric(wo.z, self.eta);
+        let chosen = sides.choose(r, 1.0 - r, uc)?;
+        match chosen.side {
+            Side::Reflection => Some(Draw {
+                wi: LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z)),
+                weight: r / chosen.probability,
+                pdf: None,
+                side: Side::Reflection,
+                eta: 1.0,
+            }),
+            Side::Transmission => {
+                let refracted = refraction::refract(*wo, Vec3::Z, self.eta)?;
+                Some(Draw {
+                    wi: LocalDir::new_unchecked(refracted.w),
+                    weight: (1.0 - r) / chosen.probability * radiance_scale(mode, refracted.eta),
+                    pdf: None,
+                    side: Side::Transmission,
+                    eta: refracted.eta,
+                })
+            }
+        }
+    }
+}
+
+/// (ηo/ηi)² for radiance: light that enters a denser medium is spread over a smaller solid angle there, so
+/// that radiance seen from outside is the smaller (Veach 1997, 5.2).
+fn radiance_scale(mode: Mode, eta: f32) -> f32 {
+    match mode {
+        Mode::Radiance => 1.0 / (eta * eta),
+        Mode::Importance => 1.0,
+    }
+}
+
+/// A pane so thin that it neither shifts nor focuses light: two parallel smooth interfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct ThinDielectric {
+    /// Index of the pane over that of its surroundings.
+    pub eta: f32,
+}
+
+impl ThinDielectric {
+    /// A discrete direction: mirrored, or straight on.
+    pub fn sample(&self, wo: LocalDir, uc: f32) -> Option<BsdfSample> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let r = self.reflectance(wo);
+        let (wi, side) = if uc < r {
+            (LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z)), Side::Reflection)
+        } else {
+            (-wo, Side::Transmission)
+        };
+        // Chosen with the probability that is its power ratio.
+        Some(BsdfSample {
+            wi,
+            weight: Sampled::ONE,
+            density: Density::Delta,
+            side,
+            lobe: Lobe::Specular,
+            eta: 1.0,
+        })
+    }
+
+    /// Examples for the conformance suite.
+    pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
+        [Specimen::new("thin dielectric", Claims::LOSSLESS, Self { eta: 1.5 })].into_iter()
+    }
+
+    /// All orders of internal reflection summed, R + T²R/(1 − R²), for unpolarised interfaces
+    /// (pbrt-v4 book, 9.5.1).
+    fn reflectance(&self, wo: LocalDir) -> f32 {
+        let r = fresnel::dielectric(wo.abs_cos_theta(), self.eta);
+        if r < 1.0 {
+            let t = 1.0 - r;
+            r + t * t * r / (1.0 - r * r)
+        } else {
+            1.0
+        }
+    }
+}
