@@ -23,7 +23,7 @@ impl Lens {
         if !(self.radius >= 0.0 && self.radius.is_finite()) {
             return Err(CameraError::LensRadius(self.radius));
         }
-        if !(self.focal_distance > 0.0) {
+        if self.focal_distance.is_nan() || self.focal_distance <= 0.0 {
             return Err(CameraError::FocalDistance(self.focal_distance));
         }
         Ok(())

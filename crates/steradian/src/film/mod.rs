@@ -1,1 +1,2 @@
 //! film
+pub mod filter;

@@ -128,7 +128,7 @@ impl Sampler {
     }
 
     /// 64 random bits of this pixel, sample and dimension: the seed of a random walk; consumes one dimension.
-    pub fn next_seed(&mut self) -> u64 {
+    pub fn hash_seed(&mut self) -> u64 {
         self.position().next_sample_hash(1)
     }
 
@@ -166,7 +166,7 @@ mod tests {
             let draw = |s: &mut Sampler, pixel, index| {
                 s.start(pixel, index);
                 let film = s.next_pixel_2d();
-                (film, s.next_1d(), s.next_2d(), s.next_seed(), s.next_1d())
+                (film, s.next_1d(), s.next_2d(), s.hash_seed(), s.next_1d())
             };
             let mut used = fresh;
             for i in 0..40 {
