@@ -1,1 +1,12 @@
-//! color
+//! Colour: tristimulus values, RGB spaces, and the spectra that stand for RGB triples.
+
+pub mod adaptation;
+mod fit;
+pub mod space;
+pub mod transfer;
+pub mod triple;
+
+pub use crate::spectrum::cie;
+pub use adaptation::{Adaptation, ConeModel};
+pub use space::{ColorSpace, ColorSpaceKind, Factored, OutOfRange};
+pub use triple::{Chromaticity, Rgb, Xyz};
