@@ -59,6 +59,12 @@ impl FitBasis {
         Self { t: std::array::from_fn(|i| (i * STEP) as f64 / half - 1.0), weight }
     }
 
+    /// X/Xₙ, Y/Yₙ, Z/Zₙ of a reflectance.
+    #[cfg(test)]
+    pub(super) fn relative_xyz(&self, c: DVec3) -> DVec3 {
+        self.linearise(c).value
+    }
+
     fn linearise(&self, c: DVec3) -> Linearised {
         let mut sum = [[[0.0_f64; GROUP]; 4]; 3];
         let [wx, wy, wz] = &self.weight;

@@ -3,10 +3,12 @@
 pub mod adaptation;
 mod fit;
 pub mod space;
+pub mod table;
 pub mod transfer;
 pub mod triple;
 
 pub use crate::spectrum::cie;
 pub use adaptation::{Adaptation, ConeModel};
 pub use space::{ColorSpace, ColorSpaceKind, Factored, OutOfRange};
+pub use table::UpsamplingTable;
 pub use triple::{Chromaticity, Rgb, Xyz};

@@ -167,7 +167,7 @@ impl ColorSpace {
 
     /// The smooth reflectance that shows `rgb` ∈ [0, 1]³ under the colour space's white; components are clamped.
     ///
-    /// A direct fit of some microseconds, once per constant of a scene.
+    /// A direct fit of some microseconds, for the constants of a scene; the upsampling table serves texels.
     pub fn sigmoid(&self, rgb: Rgb) -> Sigmoid {
         let rgb = clamped(rgb);
         if rgb.0.x == rgb.0.y && rgb.0.y == rgb.0.z {
@@ -177,7 +177,18 @@ impl ColorSpace {
         to_sigmoid(self.basis.fit(target).coefficients)
     }
 
-    fn relative_xyz(&self, rgb: Rgb) -> DVec3 {
+    pub(super) fn basis(&self) -> &FitBasis {
+        &self.basis
+    }
+
+    /// The triple that a reflectance shows, by the quadrature of the fit.
+    #[cfg(test)]
+    pub(super) fn shown_by(&self, s: Sigmoid) -> Rgb {
+        let c = DVec3::new(f64::from(s.c0), f64::from(s.c1), f64::from(s.c2));
+        Rgb((self.relative_from_rgb.inverse() * self.basis.relative_xyz(c)).as_vec3())
+    }
+
+    pub(super) fn relative_xyz(&self, rgb: Rgb) -> DVec3 {
         self.relative_from_rgb * rgb.0.as_dvec3()
     }
 }
@@ -201,7 +212,7 @@ impl Factored {
 }
 
 /// Limits each component to [0, 1]; NaN becomes zero.
-fn clamped(rgb: Rgb) -> Rgb {
+pub(super) fn clamped(rgb: Rgb) -> Rgb {
     let [r, g, b] = rgb.0.to_array().map(|c| c.max(0.0).min(1.0));
     Rgb::new(r, g, b)
 }
