@@ -1,0 +1,89 @@
+//! The structure itself: a tree over the world, one per object, and the placements of objects.
+
+use super::contract::{Instance, ObjectId};
+use super::kernel::KernelChoice;
+use super::tree::Tree;
+use crate::math::{
+    AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Transform, float,
+};
+use glam::{DAffine3, Mat3};
+
+/// A spatial index over shapes and instances that answers ray queries. Built by [`Accel::build`].
+#[derive(Clone, Debug)]
+pub struct Accel {
+    pub(super) world: Tree,
+    pub(super) objects: Vec<Tree>,
+    pub(super) instances: Vec<Placed>,
+    pub(super) kernel: KernelChoice,
+}
+
+/// An instance with what its rays need.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub(super) object: ObjectId,
+    render_from_object: AnimatedTransform,
+    /// The inverse, in f64 so that going back and forth does not lose the margin of spawned rays; `None` while
+    /// the instance moves.
+    fixed: Option<DAffine3>,
+}
+
+fn inverse(t: &Transform) -> DAffine3 {
+    DAffine3::from_mat4(t.matrix().as_dmat4()).inverse()
+}
+
+impl Placed {
+    pub(super) fn new(instance: &Instance) -> Self {
+        let t = &instance.render_from_object;
+        let fixed = (!t.is_animated()).then(|| inverse(t.start()));
+        Self { object: instance.object, render_from_object: t.clone(), fixed }
+    }
+
+    /// The ray in object space at its time; parametric distances are kept.
+    pub(super) fn object_ray(&self, ray: &Ray) -> Ray {
+        let m = match self.fixed {
+            Some(m) => m,
+            None => inverse(&self.render_from_object.at(ray.time)),
+        };
+        Ray {
+            o: Point(m.transform_point3(ray.o.as_dvec3()).as_vec3()),
+            d: m.transform_vector3(ray.d.as_dvec3()).as_vec3(),
+            time: ray.time,
+        }
+    }
+
+    /// A box in render space around the object's box at every time, with room for the rounding of transforms.
+    pub(super) fn bounds(&self, object: &Bounds3) -> Bounds3 {
+        let b = self.render_from_object.motion_bounds(object);
+        let reach = b.min.abs().max(b.max.abs()).max_element();
+        // 16 roundings of numbers no larger than the sum of extent and reach.
+        b.expand((reach + b.diagonal().max_element()) * float::gamma(16))
+    }
+
+    /// An object-space surface point in render space.
+    pub(super) fn render_surface(&self, s: &SurfacePoint) -> SurfacePoint {
+        let t = self.render_from_object.at(s.time);
+        let moved = t.bounded_point(&s.p);
+        // The origin of a ray that leaves here is rounded once more when it is taken back to object space.
+        let back = Mat3::from_mat4(*t.matrix()).abs() * (s.p.p.abs() * float::gamma(2));
+        // Invertible transforms keep the length of normals positive.
+        let ng = t.normal(s.ng).unwrap_or(s.ng);
+        let shading = &s.shading;
+        let n = t.normal(shading.n).unwrap_or(ng).facing(*ng);
+        SurfacePoint {
+            p: BoundedPoint { p: moved.p, error: moved.error + back },
+            ng,
+            uv: s.uv,
+            dpdu: t.vector(s.dpdu),
+            dpdv: t.vector(s.dpdv),
+            shading: Shading {
+                n,
+                dpdu: t.vector(shading.dpdu),
+                dpdv: t.vector(shading.dpdv),
+                dndu: t.normal_vector(shading.dndu),
+                dndv: t.normal_vector(shading.dndv),
+            },
+            time: s.time,
+            face: s.face,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Sampling single triangles of a mesh, as emitters are.
+
+use super::contract::{ReferencePoint, ShapeSample, ShapeSampleToward, area_density_toward};
+use super::mesh::{self, TriangleMesh};
+use super::spherical;
+use crate::math::{Dir, Normal, SurfacePoint, Vec2, warp};
+use crate::units::{PdfArea, PdfSolidAngle};
+use glam::DVec3;
+
+/// Solid angles [sr] for which directions are sampled uniformly: below, area sampling is as good and cheaper;
+/// above, the reference point nearly touches the triangle. The limits are those of pbrt-v4.
+const SPHERICAL_SAMPLING: std::ops::RangeInclusive<f64> = 3e-4..=6.22;
+
+/// Smallest cosine weight of a corner, so that light from a little above the shading horizon keeps a chance.
+pub(super) const MIN_CORNER_WEIGHT: f32 = 0.01;
+
+impl TriangleMesh {
+    /// Chooses a point uniformly by area; `None` for a triangle without area.
+    pub fn sample_area(&self, triangle: u32, u: Vec2) -> Option<ShapeSample> {
+        let [_, b1, b2] = warp::uniform_triangle(u);
+        let b = [b1, b2];
+        let n = self.geometric_normal(triangle, b)?;
+        let density = PdfArea(1.0 / self.area(triangle));
+        Some(ShapeSample { p: self.point_at(triangle, b), n, uv: self.uv_at(triangle, b), density })
+    }
+
+    /// Chooses a point by the solid angle at `from`, with the cosine at a shading normal warped in.
+    pub fn sample_toward(&self, triangle: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
+        let v = self.corners(triangle);
+        let Some(corners) = self.spherical_corners(triangle, from) else {
+            return self.sample_area(triangle, u)?.toward(from);
+        };
+        let (u, warp_pdf) = match from.ns {
+            Some(ns) => {
+                let w = corner_weights(corners, ns);
+                let warped = warp::bilinear(u, w);
+                (warped, warp::bilinear_pdf(warped, w))
+            }
+            None => (u, 1.0),
+        };
+        let s = spherical::sample_triangle(v, from.p.p, u)?;
+        let b = s.at.map(|b| b as f32);
+        let p = self.point_at(triangle, b);
+        let density = PdfSolidAngle(warp_pdf / s.solid_angle as f32);
+        Some(ShapeSampleToward {
+            p,
+            n: self.geometric_normal(triangle, b)?,
+            uv: self.uv_at(triangle, b),
+            wi: Dir::new(p.p - from.p.p)?,
+            density,
+        })
+    }
+
+    /// Density of [`TriangleMesh::sample_toward`] for the direction `wi`, which meets the triangle at `hit`.
+    pub fn pdf_toward(
+        &self,
+        triangle: u32,
+        from: &ReferencePoint,
+        wi: Dir,
+        hit: &SurfacePoint,
+    ) -> PdfSolidAngle {
+        let Some(corners) = self.spherical_corners(triangle, from) else {
+            return area_density_toward(PdfArea(1.0 / self.area(triangle)), from, wi, hit);
+        };
+        let uniform = (1.0 / spherical::triangle_solid_angle(corners)) as f32;
+        let Some(ns) = from.ns else { return PdfSolidAngle(uniform) };
+        // Normalised in f64: the inversion divides by the area of a sub-triangle.
+        let w = wi.as_dvec3().normalize();
+        let Some(u) = spherical::invert_triangle(self.corners(triangle), from.p.p, w) else {
+            return PdfSolidAngle(uniform);
+        };
+        PdfSolidAngle(uniform * warp::bilinear_pdf(u, corner_weights(corners, ns)))
+    }
+
+    /// Directions to the corners if the triangle is to be sampled by solid angle.
+    fn spherical_corners(&self, triangle: u32, from: &ReferencePoint) -> Option<[DVec3; 3]> {
+        let v = self.corners(triangle);
+        if mesh::cross(v) == DVec3::ZERO {
+            return None;
+        }
+        let corners = spherical::directions_to(v, from.p.p)?;
+        SPHERICAL_SAMPLING.contains(&spherical::triangle_solid_angle(corners)).then_some(corners)
+    }
+}
+
+/// Cosines to the shading normal at the corners of the sample square: u.x = 0 is the edge v₀v₁ and u.y = 0 the
+/// corner v₁, so that the square's lower side is one point.
+fn corner_weights(corners: [DVec3; 3], ns: Normal) -> [f32; 4] {
+    let weight = |d: DVec3| (d.as_vec3().dot(*ns)).abs().max(MIN_CORNER_WEIGHT);
+    let [w0, w1, w2] = corners.map(weight);
+    [w1, w1, w0, w2]
+}
