@@ -1,7 +1,7 @@
 //! Textures that blend two inputs by a weight that varies over the surface.
 
 use super::input::FloatInput;
-use crate::math::Dir;
+use super::pattern::Pattern;
 
 /// Two inputs and what decides between them: value = (1 − w)·first + w·second.
 #[derive(Clone, Debug)]
@@ -15,10 +15,10 @@ pub struct Blend<I> {
 }
 
 /// What decides between the inputs of a [`Blend`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Weight {
-    /// pbrt-v4's `mix`: w is the amount.
+    /// An amount: pbrt-v4's `mix`.
     Amount(FloatInput),
-    /// pbrt-v4's `directionmix`: 1 − w = |n·d| for the geometric normal n and this direction d in render space.
-    Direction(Dir),
+    /// A pattern: pbrt-v4's `checkerboard`, `dots` and `directionmix`.
+    Pattern(Pattern),
 }

@@ -1,10 +1,18 @@
 //! Numbers and spectra that vary over surfaces: the closed sets, in arenas.
 
-pub mod blend;
 pub mod input;
+pub mod mapping;
+pub mod noise;
+pub mod pattern;
+pub mod blend;
+#[cfg(test)]
+mod specimen;
 
 pub use blend::{Blend, Weight};
 pub use input::{FloatInput, FloatTextureId, SpectrumInput, SpectrumTextureId, TextureContext};
+pub use mapping::{Mapping2d, Mapping3d};
+pub use noise::{NoiseKind, Octaves};
+pub use pattern::Pattern;
 
 use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::Unitless;
@@ -172,7 +180,7 @@ impl Textures {
     fn weight(&self, weight: &Weight, at: &TextureContext) -> f32 {
         match weight {
             Weight::Amount(amount) => self.float_input(amount, at),
-            Weight::Direction(d) => 1.0 - at.point.ng.cos_to(*d).abs(),
+            Weight::Pattern(pattern) => pattern.weight(at),
         }
     }
 
@@ -193,7 +201,7 @@ impl Textures {
     fn weight_depth(&self, weight: &Weight) -> Result<u32, TextureError> {
         match weight {
             Weight::Amount(amount) => self.float_depth(amount),
-            Weight::Direction(_) => Ok(0),
+            Weight::Pattern(_) => Ok(0),
         }
     }
 }
