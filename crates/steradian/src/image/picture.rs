@@ -3,7 +3,8 @@
 use super::encoding::ColorEncoding;
 use super::error::ImageError;
 use super::wrap::Wrap;
-use crate::math::{Vec2, Vec3};
+use crate::color::Rgb;
+use crate::math::Vec2;
 use exr::prelude::f16;
 
 /// What the channels of a picture are.
@@ -139,7 +140,7 @@ impl Image {
     }
 
     /// Linear red, green and blue at texel (x, y); a gray picture has three equal values.
-    pub fn rgb(&self, x: u32, y: u32) -> Vec3 {
+    pub fn rgb(&self, x: u32, y: u32) -> Rgb {
         self.rgb_at(self.base(x, y))
     }
 
@@ -154,8 +155,8 @@ impl Image {
     }
 
     /// [`Image::rgb`] at coordinates that may lie beyond the picture, where `wrap` decides.
-    pub fn rgb_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> Vec3 {
-        wrap.resolve(x, y, self.width, self.height).map_or(Vec3::ZERO, |[x, y]| self.rgb(x, y))
+    pub fn rgb_wrapped(&self, x: i32, y: i32, wrap: Wrap) -> Rgb {
+        wrap.resolve(x, y, self.width, self.height).map_or(Rgb::default(), |[x, y]| self.rgb(x, y))
     }
 
     /// [`Image::scalar`] at coordinates that may lie beyond the picture, where `wrap` decides.
@@ -164,11 +165,11 @@ impl Image {
     }
 
     /// Bilinear interpolation of [`Image::rgb`] at `st`, where [0, 1]² is the picture and t points down.
-    pub fn bilerp_rgb(&self, st: Vec2, wrap: Wrap) -> Vec3 {
-        let mut sum = Vec3::ZERO;
+    pub fn bilerp_rgb(&self, st: Vec2, wrap: Wrap) -> Rgb {
+        let mut sum = Rgb::default();
         for (base, weight) in self.taps(st, wrap) {
             if let Some(base) = base {
-                sum += self.rgb_at(base) * weight;
+                sum = sum + self.rgb_at(base) * weight;
             }
         }
         sum
@@ -255,11 +256,11 @@ impl Image {
         }
     }
 
-    fn rgb_at(&self, base: usize) -> Vec3 {
+    fn rgb_at(&self, base: usize) -> Rgb {
         match self.layout {
-            Layout::Gray => Vec3::splat(self.value(base)),
+            Layout::Gray => Rgb::new(self.value(base), self.value(base), self.value(base)),
             Layout::Rgb | Layout::Rgba => {
-                Vec3::new(self.value(base), self.value(base + 1), self.value(base + 2))
+                Rgb::new(self.value(base), self.value(base + 1), self.value(base + 2))
             }
         }
     }
@@ -267,7 +268,7 @@ impl Image {
     fn scalar_at(&self, base: usize) -> f32 {
         match self.layout {
             Layout::Gray => self.value(base),
-            Layout::Rgb => self.rgb_at(base).element_sum() / 3.0,
+            Layout::Rgb => self.rgb_at(base).0.element_sum() / 3.0,
             Layout::Rgba => self.value(base + 3),
         }
     }
@@ -307,7 +308,7 @@ mod tests {
         for y in 0..3 {
             for x in 0..4 {
                 let st = Vec2::new((x as f32 + 0.5) / 4.0, (y as f32 + 0.5) / 3.0);
-                assert!((image.bilerp_rgb(st, Wrap::CLAMP) - image.rgb(x, y)).abs().max_element() < 1e-5);
+                assert!((image.bilerp_rgb(st, Wrap::CLAMP).0 - image.rgb(x, y).0).abs().max_element() < 1e-5);
             }
         }
         let st = Vec2::new(1.75 / 4.0, 1.0 / 3.0);

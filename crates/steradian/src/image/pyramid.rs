@@ -15,11 +15,12 @@ pub struct Pyramid {
 }
 
 impl Pyramid {
-    /// Builds all levels down to 1 × 1.
+    /// Builds all levels down to 1 × 1. An alpha channel that is one everywhere is dropped first, as in pbrt-v4.
     ///
     /// # Errors
     /// Never for a picture that exists; the signature is that of [`Image::from_f32`].
     pub fn new(image: Image) -> Result<Self, ImageError> {
+        let image = if image.is_opaque() { image.without_alpha() } else { image };
         let (w, h) = (image.width().next_power_of_two(), image.height().next_power_of_two());
         let n_levels = 1 + w.max(h).ilog2();
         let channels = image.layout().channels();
