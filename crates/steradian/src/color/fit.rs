@@ -67,30 +67,27 @@ impl FitBasis {
 
     fn linearise(&self, c: DVec3) -> Linearised {
         let mut sum = [[[0.0_f64; GROUP]; 4]; 3];
-        let [wx, wy, wz] = &self.weight;
         for first in (0..NODES).step_by(GROUP) {
-            let mut term = [[0.0_f64; GROUP]; 4];
-            for k in 0..GROUP {
-                let t = self.t[first + k];
-                let x = (c.x * t + c.y) * t + c.z;
-                let q = 1.0 / (1.0 + x * x).sqrt();
-                let slope = 0.5 * q * q * q;
-                term[0][k] = 0.5 + 0.5 * x * q;
-                term[1][k] = slope;
-                term[2][k] = slope * t;
-                term[3][k] = slope * t * t;
-            }
-            for (sum, w) in sum.iter_mut().zip([wx, wy, wz]) {
+            let t: [f64; GROUP] = std::array::from_fn(|k| self.t[first + k]);
+            let x = t.map(|t| (c.x * t + c.y) * t + c.z);
+            let q = x.map(|x| 1.0 / (1.0 + x * x).sqrt());
+            let by_c2 = q.map(|q| 0.5 * q * q * q);
+            let by_c1: [f64; GROUP] = std::array::from_fn(|k| by_c2[k] * t[k]);
+            let term = [
+                std::array::from_fn(|k| 0.5 + 0.5 * x[k] * q[k]),
+                std::array::from_fn(|k| by_c1[k] * t[k]),
+                by_c1,
+                by_c2,
+            ];
+            for (sum, weight) in sum.iter_mut().zip(&self.weight) {
                 for (sum, term) in sum.iter_mut().zip(&term) {
-                    for k in 0..GROUP {
-                        sum[k] += w[first + k] * term[k];
-                    }
+                    *sum = std::array::from_fn(|k| sum[k] + weight[first + k] * term[k]);
                 }
             }
         }
         let total = |channel: usize, which: usize| sum[channel][which].iter().sum::<f64>();
         let gather = |which| DVec3::new(total(0, which), total(1, which), total(2, which));
-        Linearised { value: gather(0), by_coefficient: DMat3::from_cols(gather(3), gather(2), gather(1)) }
+        Linearised { value: gather(0), by_coefficient: DMat3::from_cols(gather(1), gather(2), gather(3)) }
     }
 
     /// The coefficients whose colour comes nearest to `target` (relative XYZ), from any start.

@@ -3,7 +3,7 @@
 use super::fit::{FitBasis, to_sigmoid};
 use super::triple::{Chromaticity, Rgb, Xyz};
 use crate::spectrum::{Dense, RgbAlbedo, RgbIlluminant, RgbUnbounded, Sigmoid, Spectrum, cie, named};
-use glam::{DMat3, DVec3, Mat3};
+use glam::{DMat3, DVec3, Mat3, Vec3};
 use thiserror::Error;
 
 /// The colour spaces of scene files.
@@ -213,8 +213,8 @@ impl Factored {
 
 /// Limits each component to [0, 1]; NaN becomes zero.
 pub(super) fn clamped(rgb: Rgb) -> Rgb {
-    let [r, g, b] = rgb.0.to_array().map(|c| c.max(0.0).min(1.0));
-    Rgb::new(r, g, b)
+    // `Vec3::clamp` would keep a NaN.
+    Rgb(rgb.0.max(Vec3::ZERO).min(Vec3::ONE))
 }
 
 /// The matrix whose columns are the primaries, scaled so that (1, 1, 1) is `white` (SMPTE RP 177).
@@ -287,7 +287,7 @@ mod tests {
             let xyz = cie::tristimulus_integral(|l| space.illuminant().at(l))
                 .map(|v| (v / f64::from(cie::Y_INTEGRAL)) as f32);
             let rgb = space.rgb_from_xyz(Xyz::new(xyz[0], xyz[1], xyz[2]));
-            assert!((rgb.0 - glam::Vec3::ONE).abs().max_element() < 1e-5, "{kind:?}: {rgb:?}");
+            assert!((rgb.0 - Vec3::ONE).abs().max_element() < 1e-5, "{kind:?}: {rgb:?}");
             assert!((space.luminance(Rgb::new(1.0, 1.0, 1.0)) - 1.0).abs() < 1e-6);
         }
     }

@@ -117,3 +117,87 @@ impl Spectrum {
         Dense::sample_function(LAMBDA_MIN, cie::SAMPLES, |l| self.at(l))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::sigmoid::Sigmoid;
+    use super::*;
+    use crate::units::{Kelvin, Unitless};
+
+    fn specimens() -> Vec<Spectrum> {
+        let sigmoid = Sigmoid { c0: 3.0, c1: -2.0, c2: -0.5 };
+        let dense = Dense::sample_function(LAMBDA_MIN, cie::SAMPLES, |l| 0.01 * l);
+        vec![
+            Spectrum::Constant(0.7),
+            Spectrum::Tabulated(Tabulated::new(&[(400.0, 1.0), (500.0, 3.0), (650.0, 0.5)]).unwrap()),
+            Spectrum::Dense(dense.clone()),
+            Spectrum::Blackbody(Blackbody::normalized(Kelvin(5000.0))),
+            Spectrum::RgbAlbedo(RgbAlbedo { sigmoid }),
+            Spectrum::RgbUnbounded(RgbUnbounded { scale: 4.0, sigmoid }),
+            Spectrum::RgbIlluminant(RgbIlluminant { scale: 2.0, sigmoid, illuminant: dense }),
+        ]
+    }
+
+    #[test]
+    fn sampling_a_path_agrees_with_evaluating_each_wavelength() {
+        for s in specimens() {
+            for i in 0..50 {
+                let w = Wavelengths::sample_visible((i as f32 + 0.5) / 50.0);
+                let sampled: Sampled<Unitless> = s.sample(&w);
+                assert_eq!(sampled.to_array(), w.lambda().map(|l| s.at(l)), "{s:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_maximum_bounds_every_value() {
+        for s in specimens() {
+            let max = s.max_value();
+            assert!((3600..=8300).all(|l| s.at(l as f32 * 0.1) <= max * (1.0 + 1e-5)), "{s:?}");
+        }
+    }
+
+    #[test]
+    fn scaling_scales_values_and_integrals() {
+        for s in specimens() {
+            let t = s.clone().scaled(2.5);
+            for l in [410.0, 555.0, 640.0] {
+                assert!((t.at(l) - 2.5 * s.at(l)).abs() <= 1e-5 * t.at(l).abs(), "{s:?}");
+            }
+            let factor = if matches!(s, Spectrum::RgbIlluminant(_)) { 1.0 } else { 2.5 };
+            assert!((t.photometric_integral() / s.photometric_integral() - factor).abs() < 1e-5, "{s:?}");
+        }
+    }
+
+    #[test]
+    fn photometric_integrals_of_known_spectra() {
+        assert!(
+            (Spectrum::Constant(2.0).photometric_integral() / (2.0 * cie::Y_INTEGRAL) - 1.0).abs() < 1e-6
+        );
+        // A line of 2 nm base and unit peak at 555 nm, where ȳ = 1: the table sees one sample of 1.
+        let line = Tabulated::new(&[(554.0, 0.0), (555.0, 1.0), (556.0, 0.0)]).unwrap();
+        assert_eq!(Spectrum::Tabulated(line).photometric_integral(), 1.0);
+        // A black body at the freezing point of platinum, 2042 K, defined the candela until 1979: 60 cd/cm².
+        let platinum = Spectrum::Blackbody(Blackbody::absolute(Kelvin(2042.0)));
+        let luminance = crate::units::LUMENS_PER_WATT * platinum.photometric_integral();
+        assert!((luminance / 6.0e5 - 1.0).abs() < 0.02, "{luminance}");
+    }
+
+    #[test]
+    fn dense_sampling_keeps_values_at_whole_nanometres() {
+        for s in specimens() {
+            let d = s.densely_sampled();
+            for l in [360.0, 401.0, 555.0, 830.0] {
+                assert_eq!(d.at(l), s.at(l));
+            }
+        }
+    }
+
+    #[test]
+    fn only_wavelength_independent_spectra_are_constant() {
+        let constant: Vec<_> = specimens().iter().map(Spectrum::constant_value).collect();
+        assert_eq!(constant, [Some(0.7), None, None, None, None, None, None]);
+        let grey = Spectrum::RgbUnbounded(RgbUnbounded { scale: 3.0, sigmoid: Sigmoid::constant(0.5) });
+        assert!((grey.constant_value().unwrap() - 1.5).abs() < 1e-6);
+    }
+}

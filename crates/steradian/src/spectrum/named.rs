@@ -76,3 +76,93 @@ pub fn named(name: &str) -> Option<Spectrum> {
 pub fn names() -> impl Iterator<Item = &'static str> {
     TABLES.iter().map(|t| t.0).chain(ALIASES.iter().map(|a| a.0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_has_data_over_the_visible_range() {
+        assert_eq!(names().count(), 7 + 14 + 15 + 1 + 3);
+        for name in names() {
+            let (lo, hi) = named(name).unwrap_or_else(|| panic!("{name}")).range().unwrap();
+            assert!(lo <= 360.0 && hi >= 830.0, "{name}: {lo}..{hi}");
+        }
+        assert_eq!(named("glass-F5"), named("glass-SF5"));
+        assert_eq!(named("metal-Unobtainium-k"), None);
+    }
+
+    #[test]
+    fn glasses_have_their_catalogue_indices() {
+        // Schott data sheets: n_d at 587.5618 nm, then n_F' at 479.9914 nm and n_C' at 643.8469 nm for N-BK7.
+        for (name, n_d) in [
+            ("glass-BK7", 1.516_80),
+            ("glass-BAF10", 1.670_03),
+            ("glass-FK51A", 1.486_56),
+            ("glass-LASF9", 1.850_25),
+            ("glass-F5", 1.672_71),
+            ("glass-F10", 1.728_28),
+            ("glass-F11", 1.784_72),
+        ] {
+            assert!((named(name).unwrap().at(587.5618) - n_d).abs() < 2e-5, "{name}");
+        }
+        let bk7 = named("glass-BK7").unwrap();
+        assert!((bk7.at(479.9914) - 1.522_83).abs() < 2e-5 && (bk7.at(643.8469) - 1.514_72).abs() < 2e-5);
+    }
+
+    #[test]
+    fn glasses_disperse_normally() {
+        for name in names().filter(|n| n.starts_with("glass-")) {
+            let s = named(name).unwrap();
+            assert!((380..830).all(|l| s.at(l as f32) > s.at((l + 1) as f32)), "{name}");
+        }
+    }
+
+    #[test]
+    fn metals_reflect_as_measured() {
+        // Normal-incidence Fresnel reflectance at 633 nm (Johnson & Christy; Rakić): silver and gold above 0.92, copper
+        // 0.93–0.96, aluminium 0.91; gold and copper lose the blue.
+        let reflectance = |metal: &str, l: f32| {
+            let n = named(&format!("metal-{metal}-eta")).unwrap().at(l);
+            let k = named(&format!("metal-{metal}-k")).unwrap().at(l);
+            ((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k)
+        };
+        for (metal, lo, hi) in
+            [("Ag", 0.96, 0.99), ("Au", 0.92, 0.97), ("Cu", 0.92, 0.97), ("Al", 0.89, 0.93)]
+        {
+            let r = reflectance(metal, 633.0);
+            assert!((lo..hi).contains(&r), "{metal}: {r}");
+        }
+        assert!(
+            reflectance("Au", 450.0) < 0.5
+                && reflectance("Cu", 450.0) < 0.65
+                && reflectance("CuZn", 450.0) < 0.6
+        );
+        for name in names().filter(|n| n.starts_with("metal-")) {
+            let s = named(name).unwrap();
+            assert!((360..=830).all(|l| (0.0..12.0).contains(&s.at(l as f32))), "{name}");
+        }
+    }
+
+    #[test]
+    fn illuminants_have_unit_luminance_and_no_negative_power() {
+        for name in names().filter(|n| n.contains("illum-")) {
+            let s = named(name).unwrap();
+            assert!((s.photometric_integral() / cie::Y_INTEGRAL - 1.0).abs() < 1e-6, "{name}");
+            assert!((360..=830).all(|l| s.at(l as f32) >= 0.0), "{name}");
+        }
+    }
+
+    #[test]
+    fn illuminant_a_follows_its_definition() {
+        // CIE 15:2018, 4.1.1: Planck at 2848 K with c₂ = 1.435·10⁷ nm·K, 100 at 560 nm.
+        let planck = |l: f32| {
+            (560.0 / l).powi(5) * (1.435e7_f32 / (2848.0 * 560.0)).exp_m1()
+                / (1.435e7 / (2848.0 * l)).exp_m1()
+        };
+        let a = named("stdillum-A").unwrap();
+        for l in [360.0, 400.0, 500.0, 780.0, 830.0] {
+            assert!((a.at(l) / a.at(560.0) / planck(l) - 1.0).abs() < 1e-4, "{l}");
+        }
+    }
+}
