@@ -58,6 +58,12 @@ impl Diagnostic {
         Self::new(Severity::Error, span, message)
     }
 
+    /// An error that concerns no place in a file that could be read.
+    pub fn unplaced_error(message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self { severity: Severity::Error, message, span: None, help: None, related: Vec::new() }
+    }
+
     /// A warning at a place.
     pub fn warning(span: Span, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, span, message)
@@ -142,16 +148,17 @@ impl Rendered<'_> {
 
 /// The diagnostics of one scene, in the order in which they were found.
 ///
-/// At most [`Diagnostics::LIMIT`] are kept; the rest are counted.
+/// At most [`Diagnostics::LIMIT`] errors and as many others are kept; the rest are counted.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     kept: Vec<Diagnostic>,
     errors: usize,
+    others: usize,
     dropped: usize,
 }
 
 impl Diagnostics {
-    /// Number of diagnostics that are kept.
+    /// Number of errors that are kept, and of other diagnostics.
     pub const LIMIT: usize = 100;
 
     /// No diagnostics.
@@ -161,10 +168,9 @@ impl Diagnostics {
 
     /// Adds a diagnostic; beyond the limit it is only counted.
     pub fn push(&mut self, d: Diagnostic) {
-        if d.severity == Severity::Error {
-            self.errors += 1;
-        }
-        if self.kept.len() < Self::LIMIT {
+        let seen = if d.severity == Severity::Error { &mut self.errors } else { &mut self.others };
+        *seen += 1;
+        if *seen <= Self::LIMIT {
             self.kept.push(d);
         } else {
             self.dropped += 1;
@@ -294,10 +300,11 @@ mod tests {
         let mut sources = SourceMap::new();
         let file = sources.add("a", bytes("x"), None);
         let mut all = Diagnostics::new();
+        all.warning(Span { file, start: 0, len: 1 }, "w");
         for i in 0..Diagnostics::LIMIT + 7 {
             all.error(Span { file, start: 0, len: 1 }, format!("e{i}"));
         }
-        assert_eq!((all.iter().count(), all.error_count(), all.dropped()), (100, 107, 7));
+        assert_eq!((all.iter().count(), all.error_count(), all.dropped()), (101, 107, 7));
         assert!(all.display(&sources).to_string().ends_with("… and 7 more\n"));
     }
 

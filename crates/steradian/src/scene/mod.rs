@@ -12,7 +12,9 @@
 pub mod desc;
 pub mod diagnostic;
 pub mod files;
+pub mod import;
 pub mod source;
+pub mod text;
 
 pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, nearest};

@@ -1,6 +1,6 @@
 //! The film and the pixel filter as the scene states them.
 
-use super::value::ColorSpaceKind;
+use crate::color::ColorSpaceKind;
 use crate::scene::source::Span;
 
 /// The film.

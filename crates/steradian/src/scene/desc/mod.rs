@@ -27,11 +27,11 @@ pub use options::{OptionsDesc, RenderingSpace};
 pub use sampler::{Randomization, SamplerDesc, SamplerKind};
 pub use shape::{CurveBasis, CurveDesc, CurveKind, InstanceDesc, MeshDesc, ObjectDesc, ShapeDesc, ShapeKind};
 pub use texture::{
-    CheckerboardDomain, Encoding, FloatParam, FloatTextureDesc, FloatTextureKind, ImageFilter,
-    ImageTextureDesc, Mapping2d, NoiseDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind,
-    TextureDesc, TextureId, WrapMode,
+    CheckerboardDomain, FloatParam, FloatTextureDesc, FloatTextureKind, ImageFilter, ImageTextureDesc,
+    Mapping2d, NoiseDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind, TextureDesc, TextureId,
+    WrapMode,
 };
-pub use value::{ColorSpaceKind, FileRef, SpectrumDesc, SpectrumValue};
+pub use value::{FileRef, SpectrumDesc, SpectrumValue};
 
 /// A whole scene as plain data. Every [`Id`] in it is in range.
 #[derive(Clone, Debug)]

@@ -2,6 +2,7 @@
 
 use super::id::Id;
 use super::value::{FileRef, SpectrumDesc};
+use crate::image::ColorEncoding;
 use crate::math::{Dir, Transform, Vec3};
 use crate::scene::source::Span;
 
@@ -242,7 +243,7 @@ pub struct ImageTextureDesc {
     /// The picture.
     pub file: FileRef,
     /// How 8-bit samples are encoded; `None` leaves it to the file's format.
-    pub encoding: Option<Encoding>,
+    pub encoding: Option<ColorEncoding>,
     /// Filter (bilinear).
     pub filter: ImageFilter,
     /// Continuation beyond the borders (repeat).
@@ -255,17 +256,6 @@ pub struct ImageTextureDesc {
     pub max_anisotropy: f32,
     /// Mapping.
     pub mapping: Mapping2d,
-}
-
-/// The transfer function of encoded samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Encoding {
-    /// sRGB.
-    Srgb,
-    /// None.
-    Linear,
-    /// A power law: linear = encoded^γ, γ > 0.
-    Gamma(f32),
 }
 
 /// Filtering of picture lookups.

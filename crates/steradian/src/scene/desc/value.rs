@@ -1,21 +1,8 @@
 //! Values of parameters: spectra, files.
 
+use crate::color::ColorSpaceKind;
 use crate::scene::source::Span;
 use std::path::PathBuf;
-
-/// An RGB colour space that a scene can name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ColorSpaceKind {
-    /// `srgb`.
-    #[default]
-    Srgb,
-    /// `dci-p3`.
-    DciP3,
-    /// `rec2020`.
-    Rec2020,
-    /// `aces2065-1`.
-    Aces2065_1,
-}
 
 /// A function of wavelength as the scene states it, not yet converted.
 ///

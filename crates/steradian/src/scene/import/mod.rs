@@ -1,0 +1,3 @@
+//! Importers: each turns files of one format into a [`SceneDesc`](super::SceneDesc).
+
+pub mod pbrt;

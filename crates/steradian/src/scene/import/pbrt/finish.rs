@@ -1,0 +1,189 @@
+//! The end of an import: names that nobody defined, orders that must not be circular, defaults.
+
+use super::camera::CameraSettings;
+use super::context::Context;
+use super::film::{default_film, default_filter};
+use super::input::Imported;
+use super::integrator::{default_accelerator, default_integrator};
+use super::machine::{Importer, Section};
+use super::names::Table;
+use super::sampler::default_sampler;
+use crate::color::ColorSpaceKind;
+use crate::math::{AnimatedTransform, Transform};
+use crate::scene::desc::{CameraDesc, Id, MaterialDesc, MaterialKind, SceneDesc, ShapeDesc, TextureId};
+use crate::scene::diagnostic::Diagnostic;
+use crate::scene::source::Span;
+
+/// Checks what can only be checked at the end, and puts the scene together.
+pub(super) fn finish(mut importer: Importer<'_>) -> Imported {
+    if !importer.ctx.is_v3 {
+        importer.report_open_blocks(0);
+        if let Some(end) =
+            importer.end.filter(|_| importer.section == Section::Header && !importer.world_too_early)
+        {
+            importer.ctx.diagnostics.error(end, "the scene ends without `WorldBegin`");
+        }
+        report_undefined(&mut importer.ctx);
+        report_mixes_of_themselves(&mut importer.ctx);
+    }
+    let order = texture_order(&mut importer.ctx);
+    drop_light_of_interfaces(&mut importer);
+    let Importer { ctx, sources, .. } = importer;
+    let mut diagnostics = ctx.diagnostics;
+    let Some(span) = importer.end.map(|s| Span { start: 0, ..s }) else {
+        if !diagnostics.has_errors() {
+            diagnostics.push(Diagnostic::unplaced_error("there is no scene file"));
+        }
+        return Imported { scene: None, sources, diagnostics };
+    };
+    let camera = importer.camera.unwrap_or_else(|| {
+        let CameraSettings { kind, shutter_open, shutter_close } = CameraSettings::default();
+        let world_from_camera = AnimatedTransform::fixed(Transform::IDENTITY);
+        CameraDesc { kind, world_from_camera, shutter_open, shutter_close, medium: None, span }
+    });
+    let complete = || {
+        Some(SceneDesc {
+            options: importer.options,
+            camera,
+            film: importer.film.unwrap_or_else(|| default_film(ColorSpaceKind::Srgb, span)),
+            filter: importer.filter.unwrap_or_else(|| default_filter(span)),
+            sampler: importer.sampler.unwrap_or_else(|| default_sampler(span)),
+            integrator: importer.integrator.unwrap_or_else(|| default_integrator(span)),
+            accelerator: importer.accelerator.unwrap_or_else(|| default_accelerator(span)),
+            float_textures: ctx.float_textures.into_values()?,
+            spectrum_textures: ctx.spectrum_textures.into_values()?,
+            texture_order: order,
+            materials: ctx.materials.into_values()?,
+            media: ctx.media.into_values()?,
+            lights: importer.lights,
+            area_lights: importer.area_lights,
+            shapes: importer.shapes,
+            objects: ctx.objects.into_values()?,
+            instances: importer.instances,
+        })
+    };
+    let scene = if diagnostics.has_errors() { None } else { complete() };
+    debug_assert!(scene.is_some() || diagnostics.has_errors(), "a name without a value was not reported");
+    Imported { scene, sources, diagnostics }
+}
+
+fn report_undefined(ctx: &mut Context) {
+    let Context { diagnostics, float_textures, spectrum_textures, materials, media, objects, .. } = ctx;
+    let mut found = Vec::new();
+    collect_undefined("float texture", float_textures, &mut found);
+    collect_undefined("spectrum texture", spectrum_textures, &mut found);
+    collect_undefined("material", materials, &mut found);
+    collect_undefined("medium", media, &mut found);
+    collect_undefined("object", objects, &mut found);
+    found.sort_by_key(|d| d.span.map(|s| (s.file, s.start)));
+    for d in found {
+        diagnostics.push(d);
+    }
+}
+
+fn collect_undefined<T>(kind: &str, table: &Table<T>, out: &mut Vec<Diagnostic>) {
+    for (name, span) in table.undefined() {
+        let d = Diagnostic::error(span, format!("{kind} \"{name}\" is not defined"));
+        out.push(d.with_nearest(name, table.defined_names()));
+    }
+}
+
+/// How far a depth-first visit has come with a node.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Visit {
+    New,
+    Open,
+    Done,
+}
+
+/// Visits a graph depth-first: nodes come out after those they use. The second list has nodes that lie on a circle.
+fn depth_first(count: usize, uses: impl Fn(usize) -> Vec<usize>) -> (Vec<usize>, Vec<usize>) {
+    let mut state = vec![Visit::New; count];
+    let (mut order, mut circular) = (Vec::with_capacity(count), Vec::new());
+    for root in 0..count {
+        if state[root] != Visit::New {
+            continue;
+        }
+        state[root] = Visit::Open;
+        let mut stack = vec![(root, uses(root))];
+        while let Some((node, pending)) = stack.last_mut() {
+            let node = *node;
+            match pending.pop() {
+                Some(next) if state[next] == Visit::New => {
+                    state[next] = Visit::Open;
+                    stack.push((next, uses(next)));
+                }
+                Some(next) => {
+                    if state[next] == Visit::Open {
+                        circular.push(node);
+                    }
+                }
+                None => {
+                    state[node] = Visit::Done;
+                    order.push(node);
+                    stack.pop();
+                }
+            }
+        }
+    }
+    (order, circular)
+}
+
+/// The textures, each after those it uses; reports circles.
+fn texture_order(ctx: &mut Context) -> Vec<TextureId> {
+    let floats = ctx.float_textures.len();
+    let node = |t: &TextureId| match t {
+        TextureId::Float(id) => id.index(),
+        TextureId::Spectrum(id) => floats + id.index(),
+    };
+    let count = floats + ctx.spectrum_textures.len();
+    let mut uses = vec![Vec::new(); count];
+    for (texture, used) in &ctx.texture_uses {
+        uses[node(texture)] = used.iter().map(node).collect();
+    }
+    let (order, circular) = depth_first(count, |n| uses[n].clone());
+    for n in circular {
+        let place = match n.checked_sub(floats) {
+            None => ctx.float_textures.get(Id::new(n as u32)).map(|t| (t.name.clone(), t.span)),
+            Some(n) => ctx.spectrum_textures.get(Id::new(n as u32)).map(|t| (t.name.clone(), t.span)),
+        };
+        if let Some((name, span)) = place {
+            ctx.diagnostics.error(span, format!("texture \"{name}\" is made of itself"));
+        }
+    }
+    let id = |n: usize| match n.checked_sub(floats) {
+        None => TextureId::Float(Id::new(n as u32)),
+        Some(n) => TextureId::Spectrum(Id::new(n as u32)),
+    };
+    order.into_iter().map(id).collect()
+}
+
+fn report_mixes_of_themselves(ctx: &mut Context) {
+    let materials = &ctx.materials;
+    let uses = |n: usize| match materials.get(Id::new(n as u32)).map(|m: &MaterialDesc| &m.kind) {
+        Some(MaterialKind::Mix { materials, .. }) => materials.iter().map(|m| m.index()).collect(),
+        _ => Vec::new(),
+    };
+    let (_, circular) = depth_first(materials.len(), uses);
+    for n in circular {
+        if let Some(m) = ctx.materials.get(Id::new(n as u32)) {
+            let name = m.name.clone().unwrap_or_default();
+            ctx.diagnostics.error(m.span, format!("material \"{name}\" is a mix of itself"));
+        }
+    }
+}
+
+/// A boundary of media emits nothing, whatever the graphics state says.
+fn drop_light_of_interfaces(importer: &mut Importer<'_>) {
+    let Importer { shapes, ctx, .. } = importer;
+    let is_interface = |s: &ShapeDesc| {
+        ctx.materials.get(s.material).is_some_and(|m| matches!(m.kind, MaterialKind::Interface))
+    };
+    for shape in shapes {
+        if shape.area_light.is_some() && is_interface(shape) {
+            shape.area_light = None;
+            let message = "shapes of material \"interface\" cannot emit light; the area light is ignored";
+            ctx.diagnostics.warning(shape.span, message);
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Sampler classes.
+
+use super::args::Args;
+use crate::scene::desc::{Randomization, SamplerDesc, SamplerKind};
+use crate::scene::source::Span;
+use crate::scene::text::Text;
+
+const CLASSES: &[&str] =
+    &["halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"];
+const V3_CLASSES: &[&str] =
+    &["02sequence", "lowdiscrepancy", "maxmindist", "random", "zerotwosequence", "adaptive", "bestcandidate"];
+
+const RANDOMIZATIONS: [(&str, Randomization); 4] = [
+    ("none", Randomization::None),
+    ("permutedigits", Randomization::PermuteDigits),
+    ("fastowen", Randomization::FastOwen),
+    ("owen", Randomization::Owen),
+];
+
+/// The sampler of a scene that has no Sampler directive.
+pub(super) fn default_sampler(span: Span) -> SamplerDesc {
+    SamplerDesc { kind: SamplerKind::ZSobol(Randomization::FastOwen), pixel_samples: 16, seed: None, span }
+}
+
+/// Reads the parameters of a sampler class; `None` when it is unknown (and reported).
+pub(super) fn sampler(class: &Text, directive: Span, args: &mut Args<'_>) -> Option<SamplerDesc> {
+    let owen = |args: &mut Args<'_>| args.choice("randomization", Randomization::FastOwen, &RANDOMIZATIONS);
+    let kind = match class.value.as_str() {
+        "independent" => SamplerKind::Independent,
+        "stratified" => SamplerKind::Stratified {
+            x: args.count("xsamples", 4, 1..=1 << 15),
+            y: args.count("ysamples", 4, 1..=1 << 15),
+            jitter: args.bool("jitter", true),
+        },
+        "halton" => {
+            // Binary scrambling does not apply to the bases of Halton's sequence in pbrt's "fastowen" form.
+            let known = [RANDOMIZATIONS[0], RANDOMIZATIONS[1], RANDOMIZATIONS[3]];
+            SamplerKind::Halton(args.choice("randomization", Randomization::PermuteDigits, &known))
+        }
+        "sobol" => SamplerKind::Sobol(owen(args)),
+        "paddedsobol" => SamplerKind::PaddedSobol(owen(args)),
+        "zsobol" => SamplerKind::ZSobol(owen(args)),
+        "pmj02bn" => SamplerKind::Pmj02bn,
+        _ => {
+            args.unknown_class("sampler", class, CLASSES, V3_CLASSES);
+            return None;
+        }
+    };
+    let pixel_samples = match kind {
+        SamplerKind::Stratified { x, y, .. } => x * y,
+        SamplerKind::Independent => args.count("pixelsamples", 4, 1..=i32::MAX as u32),
+        _ => args.count("pixelsamples", 16, 1..=i32::MAX as u32),
+    };
+    Some(SamplerDesc { kind, pixel_samples, seed: args.int_opt("seed"), span: directive })
+}
