@@ -158,6 +158,29 @@ mod tests {
     }
 
     #[test]
+    fn fluorescent_lamps_have_the_published_chromaticities() {
+        // CIE 15:2018, table T.8.1, four digits.
+        let published = [
+            (0.3131, 0.3371),
+            (0.3721, 0.3751),
+            (0.4091, 0.3941),
+            (0.4402, 0.4031),
+            (0.3138, 0.3452),
+            (0.3779, 0.3882),
+            (0.3129, 0.3292),
+            (0.3458, 0.3586),
+            (0.3741, 0.3727),
+            (0.3458, 0.3588),
+            (0.3805, 0.3769),
+            (0.4370, 0.4042),
+        ];
+        for (i, (x, y)) in published.into_iter().enumerate() {
+            let lamp = named(&format!("stdillum-F{}", i + 1)).unwrap();
+            near(spectrum_chromaticity(&lamp), x, y, 2.5e-4);
+        }
+    }
+
+    #[test]
     fn daylight_meets_its_own_chromaticity_and_the_d_illuminants() {
         for t in [4000.0, 5003.0, 6504.0, 10_000.0, 25_000.0] {
             let spectrum = Spectrum::Tabulated(daylight(Kelvin(t)).unwrap());

@@ -93,6 +93,13 @@ mod tests {
     }
 
     #[test]
+    fn every_table_names_its_source_and_the_script_that_wrote_it() {
+        for (name, text) in TABLES {
+            assert!(text.contains("# Source: ") && text.contains("# Written by xtask/tables/"), "{name}");
+        }
+    }
+
+    #[test]
     fn glasses_have_their_catalogue_indices() {
         // Schott data sheets: n_d at 587.5618 nm, then n_F' at 479.9914 nm and n_C' at 643.8469 nm for N-BK7.
         for (name, n_d) in [
