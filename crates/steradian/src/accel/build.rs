@@ -2,12 +2,13 @@
 
 use super::contract::{AccelError, Coverage, InstanceId, Layout};
 use super::tree::{Child, Item, LANES, MAX_DEPTH, MixedLeaf, Node, Owner, Packet, Tree, WIDTH};
-use crate::math::Bounds3;
+use crate::math::{Bounds3, hash};
 use crate::shape::{Primitive, Shape, ShapeId};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::builder::build_bvh2;
-use std::time::Duration;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::bvh2::{DEFAULT_MAX_STACK_DEPTH, leaf_collapser};
+use obvhs::ploc::PlocBuilder;
 
 /// One thing that a tree is built over.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +78,7 @@ pub(super) fn build(
     let whole = boxes.iter().fold(Bounds3::EMPTY, |a, b| a.union(*b));
     packer.tree.bounds = Some(whole);
     let comparable = whole.min.abs().max(whole.max.abs()).max_element() < MAX_EXTENT;
-    if comparable && packer.collapse(&by_area(boxes)).is_some() {
+    if comparable && by_area(boxes).is_some_and(|b| packer.collapse(&b).is_some()) {
         return Ok(packer.tree);
     }
     // Too deep for the traversal stack (many coincident boxes) or not comparable: halve, whatever the shape.
@@ -87,20 +88,67 @@ pub(super) fn build(
         .ok_or(AccelError::TooLarge { count: entries.len() })
 }
 
-/// PLOC with reinsertion. Built on one thread: the result is the same for any number of them.
-fn by_area(boxes: &[Bounds3]) -> Binary {
-    let aabbs: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b.min.0.into(), b.max.0.into())).collect();
-    let params = BvhBuildParams { max_prims_per_leaf: MAX_PRIMS_PER_LEAF, ..BvhBuildParams::medium_build() };
-    let bvh = build_bvh2(&aabbs, params, &mut Duration::default());
+/// PLOC with reinsertion, on one thread: the result is the same for any number of them. `None` when the tree is
+/// deeper than the fixed stacks of the optimisation.
+fn by_area(boxes: &[Bounds3]) -> Option<Binary> {
+    let aabbs: Vec<Aabb> = boxes.iter().enumerate().map(|(i, b)| untied(i, b)).collect();
+    let params = BvhBuildParams::medium_build();
+    let mut bvh = PlocBuilder::with_capacity(aabbs.len()).build(
+        params.ploc_search_distance,
+        &aabbs,
+        (0..aabbs.len() as u32).collect(),
+        params.sort_precision,
+        params.search_depth_threshold,
+    );
+    if bvh.max_depth > DEFAULT_MAX_STACK_DEPTH {
+        return None;
+    }
+    let mut optimizer = ReinsertionOptimizer::default();
+    let ratio = params.reinsertion_batch_ratio;
+    optimizer.run(&mut bvh, ratio, None);
+    leaf_collapser::collapse(&mut bvh, MAX_PRIMS_PER_LEAF, params.collapse_traversal_cost);
+    optimizer.run(&mut bvh, ratio * params.post_collapse_reinsertion_batch_ratio_multiplier, None);
     let node = |n: &obvhs::bvh2::node::Bvh2Node| BinaryNode {
-        bounds: Bounds3 {
-            min: crate::math::Point(n.aabb().min.into()),
-            max: crate::math::Point(n.aabb().max.into()),
-        },
+        bounds: Bounds3::EMPTY,
         first: n.first_index,
         count: n.prim_count,
     };
-    Binary { nodes: bvh.nodes.iter().map(node).collect(), order: bvh.primitive_indices }
+    let mut binary = Binary { nodes: bvh.nodes.iter().map(node).collect(), order: bvh.primitive_indices };
+    binary.fit(boxes);
+    Some(binary)
+}
+
+/// A box a little larger than `b` by an amount that depends on its index. Clustering merges mutually nearest
+/// neighbours; among identical boxes no two need be, and it degenerates to one merge per pass.
+fn untied(index: usize, b: &Bounds3) -> Aabb {
+    let random = hash::to_unit(hash::mix_bits(index as u64 + 1));
+    let size = b.diagonal().max_element() + 1e-2 * b.min.abs().max(b.max.abs()).max_element();
+    let b = b.expand(1e-5 * size * (0.5 + random));
+    Aabb::new(b.min.0.into(), b.max.0.into())
+}
+
+impl Binary {
+    /// Computes the boxes of all nodes from those of the primitives.
+    fn fit(&mut self, boxes: &[Bounds3]) {
+        let mut preorder = vec![0];
+        let mut next = 0;
+        while let Some(&i) = preorder.get(next) {
+            next += 1;
+            let n = &self.nodes[i];
+            if n.count == 0 {
+                preorder.extend([n.first as usize, n.first as usize + 1]);
+            }
+        }
+        for &i in preorder.iter().rev() {
+            let n = self.nodes[i];
+            let (lo, hi) = (n.first as usize, (n.first + n.count) as usize);
+            self.nodes[i].bounds = if n.count == 0 {
+                self.nodes[lo].bounds.union(self.nodes[lo + 1].bounds)
+            } else {
+                self.order[lo..hi].iter().fold(Bounds3::EMPTY, |a, &k| a.union(boxes[k as usize]))
+            };
+        }
+    }
 }
 
 /// Halves at the median along the longest axis of the centres: depth ⌈log₂ n⌉ whatever the input.
@@ -142,12 +190,15 @@ struct Packer<'a> {
 }
 
 impl Packer<'_> {
-    /// Fills the tree from a binary one; `None` (with an empty tree) when it would be deeper than the stack allows.
+    /// Fills the tree from a binary one; `None` (with an empty tree) when it would be deeper than the stack allows
+    /// or does not hold every entry once.
     fn collapse(&mut self, binary: &Binary) -> Option<()> {
         let bounds = self.tree.bounds;
         self.tree = Tree { bounds, ..Tree::default() };
         self.tree.nodes.push(Node::EMPTY);
         let mut work = vec![(0_usize, 0_usize, 1_u32)];
+        let mut placed = vec![false; self.entries.len()];
+        let mut count = 0;
         while let Some((source, target, depth)) = work.pop() {
             if depth > MAX_DEPTH {
                 self.tree = Tree { bounds, ..Tree::default() };
@@ -159,7 +210,11 @@ impl Packer<'_> {
                 let b = &binary.nodes[kid];
                 let child = if b.count > 0 {
                     let range = b.first as usize..(b.first + b.count) as usize;
-                    self.leaf(&binary.order[range])
+                    let prims = &binary.order[range];
+                    for &i in prims {
+                        count += usize::from(!std::mem::replace(&mut placed[i as usize], true));
+                    }
+                    self.leaf(prims)
                 } else {
                     let index = self.tree.nodes.len();
                     self.tree.nodes.push(Node::EMPTY);
@@ -170,7 +225,7 @@ impl Packer<'_> {
             }
             self.tree.nodes[target] = node;
         }
-        Some(())
+        (count == placed.len()).then_some(())
     }
 
     fn leaf(&mut self, prims: &[u32]) -> Child {

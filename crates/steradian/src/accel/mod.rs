@@ -9,6 +9,8 @@ pub mod contract;
 mod kernel;
 pub mod structure;
 mod traverse;
+#[cfg(test)]
+mod tests;
 mod tree;
 pub mod validate;
 
