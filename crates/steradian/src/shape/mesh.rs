@@ -60,9 +60,7 @@ impl TriangleMesh {
                 return Err(ShapeError::NotFinite { what: "tangent", index });
             }
         }
-        if let Some(index) = uvs.iter().position(|uv| !uv.is_finite()) {
-            return Err(ShapeError::NotFinite { what: "texture coordinate", index });
-        }
+        validate::check_uvs(&uvs)?;
         let flip = orientation.flips_normals(render_from_object);
         Ok(Self { indices, positions, normals, tangents, uvs, face_indices, flip })
     }

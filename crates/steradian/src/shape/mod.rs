@@ -3,6 +3,7 @@
 //! A shape consists of one or more primitives (triangles of a mesh, segments of a curve), numbered from 0; emitters,
 //! hits and acceleration structures refer to them as (shape, primitive).
 
+pub mod bilinear;
 pub mod contract;
 pub mod cylinder;
 pub mod disk;
@@ -15,6 +16,7 @@ mod triangle;
 mod validate;
 pub mod watertight;
 
+pub use bilinear::{BilinearMesh, Patch, PatchData};
 pub use contract::{
     Orientation, PrimHit, ReferencePoint, ShapeError, ShapeId, ShapeSample, ShapeSampleToward,
 };
@@ -31,6 +33,8 @@ use crate::units::PdfSolidAngle;
 pub enum Shape {
     /// Triangles with shared vertices.
     Mesh(TriangleMesh),
+    /// Bilinear patches with shared vertices.
+    Bilinear(BilinearMesh),
     /// A sphere or a part of one.
     Sphere(Box<Sphere>),
     /// A disk, an annulus or a sector.
@@ -44,6 +48,8 @@ pub enum Shape {
 pub enum Primitive {
     /// A triangle by its corners.
     Triangle([Point; 3]),
+    /// A bilinear patch by its corners.
+    Patch(Patch),
     /// A sphere.
     Sphere(Box<Sphere>),
     /// A disk.
@@ -57,6 +63,7 @@ impl Primitive {
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<PrimHit> {
         match self {
             Self::Triangle(v) => watertight::Shear::new(ray).intersect(*v, t_max),
+            Self::Patch(s) => s.intersect(ray, t_max),
             Self::Sphere(s) => s.intersect(ray, t_max),
             Self::Disk(s) => s.intersect(ray, t_max),
             Self::Cylinder(s) => s.intersect(ray, t_max),
@@ -67,6 +74,7 @@ impl Primitive {
     pub fn bounds(&self) -> Bounds3 {
         match self {
             Self::Triangle(v) => Bounds3::from_points(*v),
+            Self::Patch(s) => s.bounds(),
             Self::Sphere(s) => s.bounds(),
             Self::Disk(s) => s.bounds(),
             Self::Cylinder(s) => s.bounds(),
@@ -79,6 +87,7 @@ impl Shape {
     pub fn bounds(&self) -> Bounds3 {
         match self {
             Self::Mesh(s) => s.bounds(),
+            Self::Bilinear(s) => s.bounds(),
             Self::Sphere(s) => s.bounds(),
             Self::Disk(s) => s.bounds(),
             Self::Cylinder(s) => s.bounds(),
@@ -89,6 +98,7 @@ impl Shape {
     pub fn prim_count(&self) -> u32 {
         match self {
             Self::Mesh(s) => s.triangle_count(),
+            Self::Bilinear(s) => s.patch_count(),
             Self::Sphere(_) | Self::Disk(_) | Self::Cylinder(_) => 1,
         }
     }
@@ -97,6 +107,7 @@ impl Shape {
     pub fn primitive(&self, prim: u32) -> Primitive {
         match self {
             Self::Mesh(s) => Primitive::Triangle(s.corners(prim)),
+            Self::Bilinear(s) => Primitive::Patch(s.patch(prim)),
             Self::Sphere(s) => Primitive::Sphere(s.clone()),
             Self::Disk(s) => Primitive::Disk(s.clone()),
             Self::Cylinder(s) => Primitive::Cylinder(s.clone()),
@@ -107,6 +118,7 @@ impl Shape {
     pub fn surface(&self, prim: u32, ray: &Ray, hit: &PrimHit) -> SurfacePoint {
         match self {
             Self::Mesh(s) => s.surface(prim, hit, ray.time),
+            Self::Bilinear(s) => s.surface(prim, hit, ray.time),
             Self::Sphere(s) => s.surface(ray, hit),
             Self::Disk(s) => s.surface(ray, hit),
             Self::Cylinder(s) => s.surface(ray, hit),
@@ -117,6 +129,7 @@ impl Shape {
     pub fn area(&self, prim: u32) -> f32 {
         match self {
             Self::Mesh(s) => s.area(prim),
+            Self::Bilinear(s) => s.area(prim),
             Self::Sphere(s) => s.area(),
             Self::Disk(s) => s.area(),
             Self::Cylinder(s) => s.area(),
@@ -127,6 +140,7 @@ impl Shape {
     pub fn sample_area(&self, prim: u32, u: Vec2) -> Option<ShapeSample> {
         match self {
             Self::Mesh(s) => s.sample_area(prim, u),
+            Self::Bilinear(s) => s.sample_area(prim, u),
             Self::Sphere(s) => s.sample_area(u),
             Self::Disk(s) => s.sample_area(u),
             Self::Cylinder(s) => s.sample_area(u),
@@ -138,6 +152,7 @@ impl Shape {
     pub fn sample_toward(&self, prim: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
         match self {
             Self::Mesh(s) => s.sample_toward(prim, from, u),
+            Self::Bilinear(s) => s.sample_toward(prim, from, u),
             Self::Sphere(s) => s.sample_toward(from, u),
             Self::Disk(s) => s.sample_toward(from, u),
             Self::Cylinder(s) => s.sample_toward(from, u),
@@ -149,6 +164,7 @@ impl Shape {
     pub fn pdf_toward(&self, prim: u32, from: &ReferencePoint, wi: Dir, hit: &SurfacePoint) -> PdfSolidAngle {
         match self {
             Self::Mesh(s) => s.pdf_toward(prim, from, wi, hit),
+            Self::Bilinear(s) => s.pdf_toward(prim, from, wi, hit),
             Self::Sphere(s) => s.pdf_toward(from, wi, hit),
             Self::Disk(s) => s.pdf_toward(from, wi, hit),
             Self::Cylinder(s) => s.pdf_toward(from, wi, hit),

@@ -1,7 +1,7 @@
 //! Checks and transformations that meshes of triangles, of patches and control cages share.
 
 use super::contract::{Orientation, ShapeError};
-use crate::math::{Point, Transform, Vec3};
+use crate::math::{Point, Transform, Vec2, Vec3};
 
 /// An attribute array is either absent or complete.
 pub(super) fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), ShapeError> {
@@ -55,4 +55,12 @@ pub(super) fn transform_normals(
         *n = n.normalize_or_zero();
     }
     Ok(())
+}
+
+/// Texture coordinates are finite.
+pub(super) fn check_uvs(uvs: &[Vec2]) -> Result<(), ShapeError> {
+    match uvs.iter().position(|uv| !uv.is_finite()) {
+        Some(index) => Err(ShapeError::NotFinite { what: "texture coordinate", index }),
+        None => Ok(()),
+    }
 }
