@@ -25,7 +25,7 @@ impl Conductor {
     /// f [sr⁻¹] = D F G / (4 cosθo cosθi), Walter et al. 2007, eq. 20; zero where the metal is smooth.
     pub fn eval(&self, wo: LocalDir, wi: LocalDir) -> Sampled<PerSteradian> {
         let Some(wm) = self.halfway(wo, wi) else { return Sampled::ZERO };
-        let d = self.roughness.d(wm) * self.roughness.g(wo, wi) / (4.0 * (wo.z * wi.z).abs());
+        let d = 0.25 * self.roughness.d(wm) * self.roughness.g_over_cosines(wo, wi);
         (self.fresnel(wo.dot(*wm)) * d).cast()
     }
 
@@ -55,10 +55,9 @@ impl Conductor {
             return None;
         }
         // D and the cosines cancel: f cosθi / p = F G / G1(wo).
-        let shadowing = self.roughness.g(wo, wi) / self.roughness.g1(wo);
         Some(BsdfSample {
             wi,
-            weight: self.fresnel(wo.dot(*wm)) * shadowing,
+            weight: self.fresnel(wo.dot(*wm)) * self.roughness.g_over_g1(wo, wi),
             density: Density::SolidAngle(PdfSolidAngle(self.density(wo, wm))),
             side: Side::Reflection,
             lobe: Lobe::Glossy,
@@ -96,9 +95,9 @@ impl Conductor {
         Sampled::from_fn(|i| fresnel::conductor(cos, self.eta[i], self.k[i]))
     }
 
-    /// Density of the reflected direction: the visible normals' over the Jacobian 4 |wo·wm|.
+    /// Density of the reflected direction: that of the visible normals over the Jacobian 4 |wo·wm|, which cancels.
     fn density(&self, wo: LocalDir, wm: LocalDir) -> f32 {
-        self.roughness.visible_pdf(wo, wm) / (4.0 * wo.dot(*wm).abs())
+        0.25 * self.roughness.d(wm) * self.roughness.g1_over_cos(wo)
     }
 
     /// The upper facet normal that mirrors `wo` to `wi`; `None` when there is none.

@@ -127,19 +127,14 @@ impl Dielectric {
         let r = fresnel::dielectric(om, self.eta);
         let probability = sides.probability(side, r, 1.0 - r);
         let d = self.roughness.d(wm);
-        let (lambda_o, lambda_i) = (self.roughness.lambda(wo), self.roughness.lambda(wi));
-        let g = 1.0 / (1.0 + lambda_o + lambda_i);
-        let visible = d * om.abs() / ((1.0 + lambda_o) * wo.abs_cos_theta());
-        let cosines = (wo.z * wi.z).abs();
+        let visible = d * self.roughness.g1_over_cos(wo);
+        let f = d * self.roughness.g_over_cosines(wo, wi);
         Some(match side {
-            Side::Reflection => {
-                Evaluation { f: d * g * r / (4.0 * cosines), pdf: visible / (4.0 * om.abs()) * probability }
-            }
+            Side::Reflection => Evaluation { f: 0.25 * f * r, pdf: 0.25 * visible * probability },
             Side::Transmission => {
-                let root = im + om / eta;
-                let jacobian = im.abs() / (root * root);
-                let f = (1.0 - r) * d * g * om.abs() * jacobian / cosines;
-                Evaluation { f: f * radiance_scale(mode, eta), pdf: visible * jacobian * probability }
+                let jacobian = refraction_jacobian(om, im, eta) * om.abs();
+                let scale = radiance_scale(mode, eta);
+                Evaluation { f: (1.0 - r) * f * jacobian * scale, pdf: visible * jacobian * probability }
             }
         })
     }
@@ -157,20 +152,19 @@ impl Dielectric {
         let om = wo.dot(*wm);
         let r = fresnel::dielectric(om, self.eta);
         let chosen = sides.choose(r, 1.0 - r, uc)?;
-        let visible = |r: &TrowbridgeReitz| r.visible_pdf(wo, wm) * chosen.probability;
         // D and the cosines cancel: f cosθi / p = R G / (G1(wo) P), and likewise with 1 − R.
-        let shadowing = |wi: LocalDir| {
-            let lambda_o = self.roughness.lambda(wo);
-            (1.0 + lambda_o) / (1.0 + lambda_o + self.roughness.lambda(wi)) / chosen.probability
-        };
         match chosen.side {
             Side::Reflection => {
                 let wi = LocalDir::new_unchecked(refraction::reflect(*wo, *wm));
-                let pdf = visible(&self.roughness) / (4.0 * om.abs());
-                wo.same_hemisphere(wi).then(|| Draw {
+                if !wo.same_hemisphere(wi) {
+                    return None;
+                }
+                Some(Draw {
                     wi,
-                    weight: r * shadowing(wi),
-                    pdf: Some(pdf),
+                    weight: r / chosen.probability * self.roughness.g_over_g1(wo, wi),
+                    pdf: Some(
+                        0.25 * self.roughness.d(wm) * self.roughness.g1_over_cos(wo) * chosen.probability,
+                    ),
                     side: Side::Reflection,
                     eta: 1.0,
                 })
@@ -181,12 +175,12 @@ impl Dielectric {
                 if wo.z * wi.z >= 0.0 {
                     return None;
                 }
-                let im = wi.dot(*wm);
-                let root = im + om / refracted.eta;
+                let jacobian = refraction_jacobian(om, wi.dot(*wm), refracted.eta);
+                let share = (1.0 - r) / chosen.probability * self.roughness.g_over_g1(wo, wi);
                 Some(Draw {
                     wi,
-                    weight: (1.0 - r) * shadowing(wi) * radiance_scale(mode, refracted.eta),
-                    pdf: Some(visible(&self.roughness) * im.abs() / (root * root)),
+                    weight: share * radiance_scale(mode, refracted.eta),
+                    pdf: Some(self.roughness.visible_pdf(wo, wm) * jacobian * chosen.probability),
                     side: Side::Transmission,
                     eta: refracted.eta,
                 })
@@ -217,6 +211,12 @@ impl Dielectric {
             }
         }
     }
+}
+
+/// dωm/dωi of a refraction at the facet normal, from the cosines to it; Walter et al. 2007, eq. 17.
+fn refraction_jacobian(om: f32, im: f32, eta: f32) -> f32 {
+    let root = im + om / eta;
+    im.abs() / (root * root)
 }
 
 /// (ηo/ηi)² for radiance: light that enters a denser medium is spread over a smaller solid angle there, so

@@ -11,7 +11,7 @@ use super::diffuse::Diffuse;
 use super::specimen::{Claims, Specimen};
 use crate::math::hash::{self, Pcg32};
 use crate::math::{LocalDir, Vec2, warp};
-use crate::optics::{HenyeyGreenstein, TrowbridgeReitz, absorption, fresnel};
+use crate::optics::{HenyeyGreenstein, TrowbridgeReitz, absorption};
 use crate::spectrum::Sampled;
 use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
 
@@ -71,6 +71,18 @@ impl Base for Conductor {
     }
 }
 
+/// How the two ways to leave through a rough coat are weighed against each other in an estimate of f.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ExitWeights {
+    /// By the densities that either way was drawn with: unbiased.
+    #[default]
+    Consistent,
+    /// As pbrt-v4 does, which takes the density of leaving for that of entering. The weights do not sum to one: what
+    /// the base returns is overestimated, by 4 % for a coat with α = 0.1 and by 9 % with 0.4 (η = 1.5, measured
+    /// against its own sampling). For pictures that must equal pbrt-v4's.
+    Pbrt4,
+}
+
 /// What lies above the base.
 #[derive(Clone, Copy, Debug)]
 pub struct Coat {
@@ -86,6 +98,8 @@ pub struct Coat {
     pub max_depth: u16,
     /// Walks per value, at least one.
     pub samples: u16,
+    /// How a walk's ways through the coat are weighed.
+    pub weights: ExitWeights,
 }
 
 impl Coat {
@@ -99,6 +113,7 @@ impl Coat {
             g: 0.0,
             max_depth: 10,
             samples: 1,
+            weights: ExitWeights::Consistent,
         }
     }
 
@@ -156,15 +171,20 @@ impl<B: Base> Layered<B> {
 
     /// The density that weighs this sampler against others, a function of the directions and the seed.
     ///
-    /// It follows the first passage through the coat and back; what walks further, it spreads over the hemisphere. An
-    /// approximation suffices: any density that both sides agree on keeps multiple importance sampling unbiased.
+    /// It follows the first passage through the coat and back, and spreads a tenth over the sphere (pbrt-v4 book,
+    /// 14.3.4). An approximation suffices: any density that both sides agree on keeps multiple importance
+    /// sampling unbiased.
     pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
         let Some((wo, wi)) = upwards(wo, wi) else { return PdfSolidAngle(0.0) };
         let interface = &self.coat.interface;
-        let surface = interface.evaluate(wo, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf);
-        let entered = 1.0 - fresnel::dielectric(wo.z, interface.eta);
-        let below = entered * self.first_passage_pdf(wo, wi);
-        PdfSolidAngle(0.9 * (surface + below) + 0.1 * warp::cosine_hemisphere_pdf(wi.z))
+        let surface = interface.evaluate(wo, wi, Mode::Importance, Sides::Reflection).map_or(0.0, |e| e.pdf);
+        let mut rng = self.rng(Stream::Pdf, &[wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
+        let mut below = 0.0;
+        for _ in 0..self.coat.samples {
+            below += self.first_passage_pdf(wo, wi, &mut rng);
+        }
+        let pdf = surface + below / f32::from(self.coat.samples);
+        PdfSolidAngle(0.9 * pdf + 0.1 * warp::UNIFORM_SPHERE_PDF)
     }
 
     /// Walks until the light leaves; `None` when it is absorbed, or still inside after the most events.
@@ -229,10 +249,9 @@ impl<B: Base> Layered<B> {
         let connection_share = |other: f32| exit.pdf.map_or(1.0, |p| power_heuristic(p, other));
         let through_coat = |w: LocalDir, depth: f32, drawn: Option<f32>| {
             // A smooth coat evaluates to nothing.
-            interface.evaluate(-w, wi, mode, Sides::Transmission).map_or(0.0, |e| {
-                let share = drawn.map_or(1.0, |p| power_heuristic(p, e.pdf));
-                e.f * share * coat.transmittance(depth, w)
-            })
+            let Some(e) = interface.evaluate(-w, wi, mode, Sides::Transmission) else { return 0.0 };
+            let share = drawn.map_or(1.0, |p| power_heuristic(p, self.competing_pdf(w, wi, e.pdf)));
+            e.f * share * coat.transmittance(depth, w)
         };
 
         let mut f = Sampled::<PerSteradian>::ZERO;
@@ -294,6 +313,19 @@ impl<B: Base> Layered<B> {
         f
     }
 
+    /// The density that weighs a step `w` towards the coat, where `through` is that of leaving into `wi` from it.
+    fn competing_pdf(&self, w: LocalDir, wi: LocalDir, through: f32) -> f32 {
+        match self.coat.weights {
+            // What the connection was drawn with: from `wi`, backwards.
+            ExitWeights::Consistent => self
+                .coat
+                .interface
+                .evaluate(wi, -w, Mode::Importance, Sides::Transmission)
+                .map_or(0.0, |e| e.pdf),
+            ExitWeights::Pbrt4 => through,
+        }
+    }
+
     /// A walk from outside to outside; `wo` points up.
     fn walk_out(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<Walked> {
         let coat = &self.coat;
@@ -349,27 +381,24 @@ impl<B: Base> Layered<B> {
         None
     }
 
-    /// Density of leaving into `wi` at the first return to the coat, given that `wo` entered.
-    fn first_passage_pdf(&self, wo: LocalDir, wi: LocalDir) -> f32 {
+    /// An estimate of the density of leaving into `wi` at the first return to the coat, were every crossing certain.
+    fn first_passage_pdf(&self, wo: LocalDir, wi: LocalDir, rng: &mut Pcg32) -> f32 {
         let interface = &self.coat.interface;
-        let mut rng = self.rng(Stream::Pdf, &[wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
-        let (uc, u) = (rng.next_f32(), next_2d(&mut rng));
-        let Some(entry) = interface.draw(wo, uc, u, Mode::Importance, Sides::Transmission) else {
-            return 0.0;
+        let mut enter = |w| {
+            let (uc, u) = (rng.next_f32(), next_2d(rng));
+            interface.draw(w, uc, u, Mode::Importance, Sides::Transmission)
         };
-        let (uc, u) = (rng.next_f32(), next_2d(&mut rng));
-        let Some(exit) = interface.draw(wi, uc, u, Mode::Importance, Sides::Transmission) else { return 0.0 };
-        // dω inside over dω outside of one refracted ray, and the share that leaves with it.
-        let spread =
-            wi.abs_cos_theta() / (interface.eta * interface.eta * exit.wi.abs_cos_theta()) * exit.weight;
-        let base = self.base.pdf(-entry.wi, -exit.wi).0;
-        let Some(exit_pdf) = exit.pdf else { return base * spread };
-        let Some(bounce) = self.base.sample(-entry.wi, next_2d(&mut rng)) else { return 0.0 };
-        let leave = interface.evaluate(-bounce.wi, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf);
+        let (Some(entry), Some(exit)) = (enter(wo), enter(wi)) else { return 0.0 };
+        let through_base = self.base.pdf(-entry.wi, -exit.wi).0;
+        let Some(exit_pdf) = exit.pdf else { return through_base };
+        let Some(bounce) = self.base.sample(-entry.wi, next_2d(rng)) else { return 0.0 };
+        let through_coat =
+            interface.evaluate(-bounce.wi, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf);
         match bounce.density {
-            Density::Delta => leave,
+            Density::Delta => through_coat,
             Density::SolidAngle(p) => {
-                power_heuristic(exit_pdf, base) * base * spread + power_heuristic(p.0, leave) * leave
+                power_heuristic(exit_pdf, through_base) * through_base
+                    + power_heuristic(p.0, through_coat) * through_coat
             }
         }
     }

@@ -3,6 +3,7 @@
 //! The contract of every method stands in [`contract`]; each variant's file documents only what differs.
 
 pub mod conductor;
+pub mod conformance;
 pub mod contract;
 pub mod dielectric;
 pub mod diffuse;
@@ -13,7 +14,7 @@ pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
-pub use layered::{Coat, Layered};
+pub use layered::{Coat, ExitWeights, Layered};
 pub use specimen::{Claims, Specimen};
 
 use crate::math::{LocalDir, Vec2};
@@ -107,6 +108,21 @@ impl Bsdf {
             Self::CoatedDiffuse(b) => b.regularize(),
             Self::CoatedConductor(b) => b.regularize(),
         }
+    }
+
+    /// The same function with other random walks, where it is estimated by such.
+    #[must_use]
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        match &mut self {
+            Self::CoatedDiffuse(b) => b.seed = seed,
+            Self::CoatedConductor(b) => b.seed = seed,
+            Self::Diffuse(_)
+            | Self::DiffuseTransmission(_)
+            | Self::Conductor(_)
+            | Self::Dielectric(_)
+            | Self::ThinDielectric(_) => {}
+        }
+        self
     }
 
     /// The specimens of every variant.

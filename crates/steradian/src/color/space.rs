@@ -263,6 +263,26 @@ mod tests {
     }
 
     #[test]
+    fn srgb_fits_agree_with_the_published_coefficients() {
+        // At 400, 450, … 700 nm, from the coefficient table that Jakob & Hanika published (as in mitsuba 3.9.1,
+        // srgb.coeff), whose own interpolation error is of the order of 10⁻³.
+        let space = ColorSpace::new(ColorSpaceKind::Srgb);
+        for (rgb, published) in [
+            (Rgb::new(0.63, 0.065, 0.05), [0.1193, 0.0595, 0.0548, 0.0876, 0.3275, 0.898, 0.9817]),
+            (Rgb::new(0.14, 0.45, 0.091), [0.0233, 0.095, 0.3326, 0.4591, 0.255, 0.0632, 0.0166]),
+            (Rgb::new(0.2, 0.4, 0.8), [0.8991, 0.7745, 0.5648, 0.377, 0.2775, 0.2433, 0.2564]),
+            (Rgb::new(0.725, 0.71, 0.68), [0.6613, 0.6827, 0.6992, 0.7112, 0.7193, 0.7236, 0.7243]),
+            (Rgb::new(0.5, 0.0, 0.5), [0.9681, 0.4749, 0.0801, 0.0616, 0.1693, 0.8939, 0.9889]),
+        ] {
+            let s = space.sigmoid(rgb);
+            for (i, expected) in published.into_iter().enumerate() {
+                let ours = s.at(400.0 + 50.0 * i as f32);
+                assert!((ours - expected).abs() < 1.5e-3, "{rgb:?}: {ours} {expected}");
+            }
+        }
+    }
+
+    #[test]
     fn unsaturated_reflectances_of_the_wide_spaces_show_their_triples() {
         // The corners of the wide gamuts are lasers or imaginary: no reflectance shows them. Within the sRGB
         // gamut all of them must do as well as sRGB.

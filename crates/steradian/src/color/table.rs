@@ -16,17 +16,52 @@ const N: usize = 32;
 /// size, which is exact for greys and keeps the relative error of dark colours small.
 #[derive(Clone, Debug)]
 pub struct UpsamplingTable {
-    /// Sigmoid argument of a grey at each node of the largest component.
-    levels: [f32; N],
-    ratios: [f32; N],
+    magnitudes: Axis,
+    ratios: Axis,
     coefficients: Box<[Vec3A]>,
 }
 
-/// A place between two nodes.
+/// Nodes over [0, 1], found in constant time, and the coordinate in which to interpolate between them.
+#[derive(Clone, Debug)]
+struct Axis {
+    nodes: [f32; N],
+    coordinate: [f32; N],
+    /// Reciprocal of the distance to the next node, in the coordinate.
+    per_step: [f32; N],
+    /// Last node at or before each of `GUIDES` equal parts of [0, 1].
+    guide: [u8; GUIDES],
+}
+
+const GUIDES: usize = 256;
+
+/// A place between a node and the next.
 #[derive(Clone, Copy)]
 struct Between {
     node: usize,
     fraction: f32,
+}
+
+impl Axis {
+    fn new(nodes: [f32; N], coordinate: impl Fn(f32) -> f32) -> Self {
+        let coordinate = nodes.map(coordinate);
+        let per_step =
+            std::array::from_fn(|i| if i + 1 < N { 1.0 / (coordinate[i + 1] - coordinate[i]) } else { 0.0 });
+        let guide = std::array::from_fn(|g| {
+            let start = g as f32 / GUIDES as f32;
+            (nodes[1..N - 1].partition_point(|&p| p <= start)) as u8
+        });
+        Self { nodes, coordinate, per_step, guide }
+    }
+
+    /// Where `v` ∈ [0, 1] lies, given its own coordinate.
+    fn locate(&self, v: f32, coordinate: f32) -> Between {
+        let mut node = usize::from(self.guide[((v * GUIDES as f32) as usize).min(GUIDES - 1)]);
+        while node + 2 < N && self.nodes[node + 1] <= v {
+            node += 1;
+        }
+        let fraction = (coordinate - self.coordinate[node]) * self.per_step[node];
+        Between { node, fraction: fraction.clamp(0.0, 1.0) }
+    }
 }
 
 impl UpsamplingTable {
@@ -36,7 +71,7 @@ impl UpsamplingTable {
             let s = smoothstep(unit(i));
             0.5 * (s + smoothstep(s))
         });
-        let ratios = std::array::from_fn(|i| smoothstep(unit(i)));
+        let ratios: [f32; N] = std::array::from_fn(|i| smoothstep(unit(i)));
         let mut coefficients = vec![Vec3A::ZERO; 3 * N * N * N].into_boxed_slice();
         for largest in 0..3 {
             // Neighbours start from each other, outward from grey: the coefficients of a slab are then one branch of
@@ -77,7 +112,7 @@ impl UpsamplingTable {
                 }
             }
         }
-        Self { levels: magnitudes.map(level), ratios, coefficients }
+        Self { magnitudes: Axis::new(magnitudes, level), ratios: Axis::new(ratios, |r| r), coefficients }
     }
 
     /// The reflectance that shows `rgb`; components are clamped to [0, 1]. Greys are exact.
@@ -93,9 +128,10 @@ impl UpsamplingTable {
         } else {
             2
         };
-        let z = locate(&self.levels, level(v[largest]));
-        let x = locate(&self.ratios, v[(largest + 1) % 3] / v[largest]);
-        let y = locate(&self.ratios, v[(largest + 2) % 3] / v[largest]);
+        let magnitude = v[largest];
+        let [rx, ry] = [1, 2].map(|k| v[(largest + k) % 3] / magnitude);
+        let z = self.magnitudes.locate(magnitude, level(magnitude));
+        let (x, y) = (self.ratios.locate(rx, rx), self.ratios.locate(ry, ry));
         let row = |dz, dy| {
             let first = index(largest, z.node + dz, y.node + dy, x.node);
             self.coefficients[first].lerp(self.coefficients[first + 1], x.fraction)
@@ -124,12 +160,6 @@ fn smoothstep(x: f32) -> f32 {
 
 fn index(largest: usize, z: usize, y: usize, x: usize) -> usize {
     ((largest * N + z) * N + y) * N + x
-}
-
-fn locate(nodes: &[f32; N], v: f32) -> Between {
-    let node = nodes.partition_point(|&p| p <= v).clamp(1, N - 1) - 1;
-    let fraction = (v - nodes[node]) / (nodes[node + 1] - nodes[node]);
-    Between { node, fraction: fraction.clamp(0.0, 1.0) }
 }
 
 #[cfg(test)]

@@ -135,10 +135,10 @@ impl Film {
         if bounds.area() == 0 {
             return Err(FilmError::Bounds(resolution));
         }
-        if let FilmKind::Spectral(SpectralBins { count, min, max }) = kind {
-            if count == 0 || !(min > 0.0 && min < max && max.is_finite()) {
-                return Err(FilmError::Bins { count, min, max });
-            }
+        if let FilmKind::Spectral(SpectralBins { count, min, max }) = kind
+            && (count == 0 || !(min > 0.0 && min < max && max.is_finite()))
+        {
+            return Err(FilmError::Bins { count, min, max });
         }
         let white_integral = space.illuminant().photometric_integral();
         Ok(Self { resolution, bounds, filter, sensor, kind, space, white_integral })

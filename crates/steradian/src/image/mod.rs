@@ -6,10 +6,16 @@ pub mod error;
 pub mod picture;
 pub mod pyramid;
 pub mod wrap;
+pub mod frame;
+pub mod frame_exr;
+pub mod frame_png;
 
 pub use codec::decode;
 pub use encoding::ColorEncoding;
 pub use error::ImageError;
+pub use frame::{Channel, Frame, RgbPlanes, Window};
+pub use frame_exr::{SampleDepth, read_frame_exr, write_exr};
+pub use frame_png::{FrameFormat, write_frame, write_pfm, write_png};
 pub use picture::{Image, Layout};
 pub use pyramid::Pyramid;
 pub use wrap::{AxisWrap, Wrap};

@@ -3,7 +3,7 @@
 use super::encoding::ColorEncoding;
 use super::error::ImageError;
 use super::wrap::Wrap;
-use crate::color::Rgb;
+use crate::color::{ColorSpaceKind, Rgb};
 use crate::math::Vec2;
 use exr::prelude::f16;
 
@@ -52,6 +52,7 @@ pub struct Image {
     height: u32,
     layout: Layout,
     texels: Texels,
+    color_space: ColorSpaceKind,
 }
 
 /// Four texels and their bilinear weights; `None` lies in the black.
@@ -70,7 +71,8 @@ impl Image {
         encoding: ColorEncoding,
     ) -> Result<Self, ImageError> {
         check_len(width, height, layout, codes.len())?;
-        Ok(Self { width, height, layout, texels: Texels::U8 { codes, encoding, linear: encoding.table() } })
+        let texels = Texels::U8 { codes, encoding, linear: encoding.table() };
+        Ok(Self { width, height, layout, texels, color_space: ColorSpaceKind::Srgb })
     }
 
     /// A picture from linear half-precision values, channels interleaved, rows from the top.
@@ -79,7 +81,7 @@ impl Image {
     /// When a side is zero or the number of values does not fit the size.
     pub fn from_f16(width: u32, height: u32, layout: Layout, values: Vec<f16>) -> Result<Self, ImageError> {
         check_len(width, height, layout, values.len())?;
-        Ok(Self { width, height, layout, texels: Texels::F16(values) })
+        Ok(Self { width, height, layout, texels: Texels::F16(values), color_space: ColorSpaceKind::Srgb })
     }
 
     /// A picture from linear values, channels interleaved, rows from the top.
@@ -88,13 +90,13 @@ impl Image {
     /// When a side is zero or the number of values does not fit the size.
     pub fn from_f32(width: u32, height: u32, layout: Layout, values: Vec<f32>) -> Result<Self, ImageError> {
         check_len(width, height, layout, values.len())?;
-        Ok(Self { width, height, layout, texels: Texels::F32(values) })
+        Ok(Self { width, height, layout, texels: Texels::F32(values), color_space: ColorSpaceKind::Srgb })
     }
 
     /// A picture of the same storage (precision and encoding) as this one from linear values.
     pub(crate) fn like(&self, width: u32, height: u32, linear: &[f32]) -> Result<Self, ImageError> {
         let l = self.layout;
-        match &self.texels {
+        let image = match &self.texels {
             Texels::U8 { encoding, .. } => Self::from_u8(
                 width,
                 height,
@@ -106,7 +108,19 @@ impl Image {
                 Self::from_f16(width, height, l, linear.iter().map(|&v| f16::from_f32(v)).collect())
             }
             Texels::F32(_) => Self::from_f32(width, height, l, linear.to_vec()),
-        }
+        }?;
+        Ok(image.with_color_space(self.color_space))
+    }
+
+    /// The same texels, understood in another colour space.
+    #[must_use]
+    pub fn with_color_space(self, color_space: ColorSpaceKind) -> Self {
+        Self { color_space, ..self }
+    }
+
+    /// The primaries of red, green and blue; sRGB unless the file says otherwise.
+    pub fn color_space(&self) -> ColorSpaceKind {
+        self.color_space
     }
 
     /// Width [px], not zero.

@@ -1,1 +1,182 @@
-//! light
+//! Light sources: what arrives at a point, from where, with which density; how much they emit; which to sample.
+
+mod area;
+mod contract;
+mod infinite;
+mod normalise;
+mod octahedral;
+mod picture;
+mod point;
+mod selection;
+
+pub use area::{AreaRadiance, DiffuseAreaLight, Sides};
+pub use contract::{Emitter, LightError, LightId, LightPower, LightSample, LightTarget};
+pub use infinite::{DistantLight, ImageInfiniteLight, UniformInfiniteLight};
+pub use normalise::{Amount, Emission, Stated};
+pub use octahedral::latlong_to_octahedral;
+pub use picture::EmissionPicture;
+pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
+pub use selection::{Candidate, Chosen, LightSampler};
+
+use crate::math::{Dir, SurfacePoint, Vec2};
+use crate::shape::{ReferencePoint, Shape};
+use crate::spectrum::{Sampled, Wavelengths};
+use crate::units::{LUMENS_PER_WATT, PdfSolidAngle, Radiance};
+
+/// A light source in render space.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// A point that shines equally in all directions.
+    Point(PointLight),
+    /// A point that shines in a cone.
+    Spot(SpotLight),
+    /// Parallel light.
+    Distant(DistantLight),
+    /// A point with a measured distribution.
+    Goniometric(Box<GoniometricLight>),
+    /// A slide projector.
+    Projection(Box<ProjectionLight>),
+    /// A uniform sky all around.
+    UniformInfinite(UniformInfiniteLight),
+    /// An environment map.
+    ImageInfinite(Box<ImageInfiniteLight>),
+    /// An emitting shape.
+    DiffuseArea(DiffuseAreaLight),
+}
+
+impl Light {
+    /// Light that arrives at `from`, directly; `prim` is the primitive of an emitting shape, `u` ∈ [0, 1)².
+    ///
+    /// `None` when nothing arrives for this `u`. Occlusion is the caller's to test.
+    pub fn sample(
+        &self,
+        from: &ReferencePoint,
+        shapes: &[Shape],
+        prim: u32,
+        u: Vec2,
+        w: &Wavelengths,
+    ) -> Option<LightSample> {
+        match self {
+            Self::Point(l) => l.sample(from, w),
+            Self::Spot(l) => l.sample(from, w),
+            Self::Distant(l) => l.sample(w),
+            Self::Goniometric(l) => l.sample(from, w),
+            Self::Projection(l) => l.sample(from, w),
+            Self::UniformInfinite(l) => l.sample(u, w),
+            Self::ImageInfinite(l) => l.sample(u, w),
+            Self::DiffuseArea(l) => l.sample(from, shapes, prim, u, w),
+        }
+    }
+
+    /// Density with which [`Light::sample`] finds the direction `wi` at `from` that runs into `hit` on primitive `prim`
+    /// of this light's shape; zero for lights without one.
+    pub fn hit_density(
+        &self,
+        from: &ReferencePoint,
+        shapes: &[Shape],
+        prim: u32,
+        wi: Dir,
+        hit: &SurfacePoint,
+    ) -> PdfSolidAngle {
+        match self {
+            Self::DiffuseArea(l) => l.density(from, shapes, prim, wi, hit),
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Distant(_)
+            | Self::Goniometric(_)
+            | Self::Projection(_)
+            | Self::UniformInfinite(_)
+            | Self::ImageInfinite(_) => PdfSolidAngle(0.0),
+        }
+    }
+
+    /// Density with which [`Light::sample`] finds a direction that leaves the scene; zero for lights of which a ray
+    /// cannot run into the infinite.
+    pub fn escape_density(&self, wi: Dir) -> PdfSolidAngle {
+        match self {
+            Self::UniformInfinite(l) => l.density(),
+            Self::ImageInfinite(l) => l.density(wi),
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Distant(_)
+            | Self::Goniometric(_)
+            | Self::Projection(_)
+            | Self::DiffuseArea(_) => PdfSolidAngle(0.0),
+        }
+    }
+
+    /// Radiance that leaves a point of this light's shape towards `wo`; zero for other lights.
+    pub fn emitted(&self, point: &SurfacePoint, wo: Dir, w: &Wavelengths) -> Sampled<Radiance> {
+        match self {
+            Self::DiffuseArea(l) => l.radiance(point.ng, point.uv, wo, w),
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Distant(_)
+            | Self::Goniometric(_)
+            | Self::Projection(_)
+            | Self::UniformInfinite(_)
+            | Self::ImageInfinite(_) => Sampled::ZERO,
+        }
+    }
+
+    /// Radiance that arrives along a ray which leaves the scene in direction `wi`; zero for lights that no ray can meet.
+    pub fn escaped(&self, wi: Dir, w: &Wavelengths) -> Sampled<Radiance> {
+        match self {
+            Self::UniformInfinite(l) => l.escaped(w),
+            Self::ImageInfinite(l) => l.escaped(wi, w),
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Distant(_)
+            | Self::Goniometric(_)
+            | Self::Projection(_)
+            | Self::DiffuseArea(_) => Sampled::ZERO,
+        }
+    }
+
+    /// Total output; of lights at infinity what enters a sphere of `scene_radius` [scene units] around the scene.
+    pub fn power(&self, scene_radius: f32) -> LightPower {
+        match self {
+            Self::Point(l) => l.power(),
+            Self::Spot(l) => l.power(),
+            Self::Distant(l) => l.power(scene_radius),
+            Self::Goniometric(l) => l.power(),
+            Self::Projection(l) => l.power(),
+            Self::UniformInfinite(l) => l.power(scene_radius),
+            Self::ImageInfinite(l) => l.power(scene_radius),
+            Self::DiffuseArea(l) => l.power(),
+        }
+    }
+
+    /// Whether the light has no place in the scene.
+    pub fn is_infinite(&self) -> bool {
+        matches!(self, Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_))
+    }
+}
+
+impl LightSampler {
+    /// A selection among all lights of a scene, by power. `shapes` are those that area lights refer to.
+    pub fn by_power(lights: &[Light], shapes: &[Shape], scene_radius: f32) -> Self {
+        let weights: Vec<Vec<f32>> = lights
+            .iter()
+            .map(|light| {
+                let power = light.power(scene_radius);
+                // Luminance noise is what shows, but infrared light must be found as well: a twentieth for any watt.
+                let weight = power.lumens / LUMENS_PER_WATT + 0.05 * power.watts;
+                match light {
+                    Light::DiffuseArea(l) => match shapes.get(l.shape().0 as usize) {
+                        Some(shape) => {
+                            (0..shape.prim_count()).map(|prim| weight * shape.area(prim) / l.area()).collect()
+                        }
+                        None => Vec::new(),
+                    },
+                    _ => vec![weight],
+                }
+            })
+            .collect();
+        Self::new(lights.iter().zip(&weights).zip(0..).map(|((light, weights), id)| Candidate {
+            light: LightId(id),
+            infinite: light.is_infinite(),
+            weights,
+        }))
+    }
+}

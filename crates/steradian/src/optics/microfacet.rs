@@ -69,24 +69,47 @@ impl TrowbridgeReitz {
 
     /// Smith's Λ: ratio of the hidden to the visible projected area, Heitz 2014, eq. 72. Infinite at grazing.
     pub fn lambda(&self, w: LocalDir) -> f32 {
-        let (x, y) = (w.x * self.alpha_x, w.y * self.alpha_y);
-        let a2_tan2 = (x * x + y * y) / w.cos2_theta();
-        0.5 * ((1.0 + a2_tan2).sqrt() - 1.0)
+        0.5 * (self.stretched_length(w) / w.abs_cos_theta() - 1.0)
     }
 
-    /// Share of the facets that `w` sees, Heitz 2014, eq. 43. Zero at grazing.
+    /// Share of the facets that `w` sees, 1 / (1 + Λ), Heitz 2014, eq. 43. Zero at grazing.
     pub fn g1(&self, w: LocalDir) -> f32 {
-        1.0 / (1.0 + self.lambda(w))
+        self.g1_over_cos(w) * w.abs_cos_theta()
     }
 
-    /// Share of the facets visible from both directions, height-correlated, Heitz 2014, eq. 99.
+    /// Share of the facets visible from both directions, height-correlated, 1 / (1 + Λo + Λi), Heitz 2014,
+    /// eq. 99. Zero when either grazes.
     pub fn g(&self, wo: LocalDir, wi: LocalDir) -> f32 {
-        1.0 / (1.0 + self.lambda(wo) + self.lambda(wi))
+        self.g_over_cosines(wo, wi) * (wo.z * wi.z).abs()
+    }
+
+    /// G1 / |cosθ|, finite at grazing.
+    pub fn g1_over_cos(&self, w: LocalDir) -> f32 {
+        2.0 / (w.abs_cos_theta() + self.stretched_length(w))
+    }
+
+    /// G / |cosθo cosθi|, finite unless both directions graze.
+    pub fn g_over_cosines(&self, wo: LocalDir, wi: LocalDir) -> f32 {
+        2.0 / (wi.abs_cos_theta() * self.stretched_length(wo)
+            + wo.abs_cos_theta() * self.stretched_length(wi))
+    }
+
+    /// G / G1(wo): what is left of a direction drawn from the visible normals of `wo`. `wi` must not graze.
+    pub fn g_over_g1(&self, wo: LocalDir, wi: LocalDir) -> f32 {
+        let (o, i) = (wo.abs_cos_theta(), wi.abs_cos_theta());
+        let length = self.stretched_length(wo);
+        i * (o + length) / (i * length + o * self.stretched_length(wi))
     }
 
     /// Density [sr⁻¹] of the facet normals that `w` sees: G1(w) |w·wm| D(wm) / |cosθ|, Heitz 2014, eq. 16.
     pub fn visible_pdf(&self, w: LocalDir, wm: LocalDir) -> f32 {
-        self.g1(w) / w.abs_cos_theta() * self.d(wm) * w.dot(*wm).abs()
+        self.g1_over_cos(w) * self.d(wm) * w.dot(*wm).abs()
+    }
+
+    /// |cosθ| √(1 + α² tan²θ), in a form that does not divide.
+    fn stretched_length(&self, w: LocalDir) -> f32 {
+        let (x, y) = (w.x * self.alpha_x, w.y * self.alpha_y);
+        (x * x + y * y + w.z * w.z).sqrt()
     }
 
     /// A facet normal, in the upper hemisphere, with density [`TrowbridgeReitz::visible_pdf`] in u ∈ [0, 1)²;

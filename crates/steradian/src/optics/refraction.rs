@@ -40,7 +40,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn refraction_obeys_snell_and_is_its_own_inverse(theta in 0.0f32..3.14, phi in 0.0f32..6.28, eta in 0.4f32..2.5) {
+        fn refraction_obeys_snell_and_is_its_own_inverse(theta in 0.0f32..3.1, phi in 0.0f32..6.2, eta in 0.4f32..2.5) {
             let n = warp::spherical_direction(0.7, 1.1);
             let w = warp::spherical_direction(theta, phi);
             prop_assume!(n.dot(w).abs() > 1e-3);
@@ -65,7 +65,7 @@ mod tests {
         }
 
         #[test]
-        fn reflection_keeps_the_angle_and_the_plane(theta in 0.0f32..3.14, phi in 0.0f32..6.28) {
+        fn reflection_keeps_the_angle_and_the_plane(theta in 0.0f32..3.1, phi in 0.0f32..6.2) {
             let n = warp::spherical_direction(0.7, 1.1);
             let w = warp::spherical_direction(theta, phi);
             let r = reflect(w, n);

@@ -49,7 +49,12 @@ impl Spectrum {
             Self::Blackbody(b) => Sampled::from_array(l.map(|l| b.at(l))),
             Self::RgbAlbedo(r) => Sampled::from_array(l.map(|l| r.sigmoid.at(l))),
             Self::RgbUnbounded(r) => Sampled::from_array(l.map(|l| r.at(l))),
-            Self::RgbIlluminant(r) => Sampled::from_array(l.map(|l| r.at(l))),
+            Self::RgbIlluminant(r) => {
+                // Apart, because the table's gathers would keep the filter's arithmetic from being vectorised.
+                let filter = l.map(|l| r.scale * r.sigmoid.at(l));
+                let white = l.map(|l| r.illuminant.at(l));
+                Sampled::from_fn(|i| filter[i] * white[i])
+            }
         }
     }
 

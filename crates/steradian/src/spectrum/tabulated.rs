@@ -55,14 +55,21 @@ impl TableError {
     }
 }
 
+/// A sample, and the slope from it to the next one [nm⁻¹]; zero at the last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Knot {
+    lambda: f32,
+    value: f32,
+    slope: f32,
+}
+
 /// A piecewise linear spectrum through samples of any spacing; zero outside their range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabulated {
-    lambda: Box<[f32]>,
-    value: Box<[f32]>,
-    /// Segment in which each of equally wide buckets of the range begins: finding a segment is one
+    knots: Box<[Knot]>,
+    /// Knot at or before the start of each of equally wide buckets of the range: finding a wavelength's segment is one
     /// multiplication and, for data no denser than the buckets, at most one step.
-    first: Box<[u16]>,
+    first: Box<[u32]>,
     buckets_per_nm: f32,
 }
 
@@ -99,67 +106,69 @@ impl Tabulated {
     }
 
     fn from_sorted(pairs: &[(f32, f32)]) -> Self {
-        let lambda: Box<[f32]> = pairs.iter().map(|p| p.0).collect();
-        let value: Box<[f32]> = pairs.iter().map(|p| p.1).collect();
-        let range = lambda[lambda.len() - 1] - lambda[0];
+        let mut knots: Box<[Knot]> =
+            pairs.iter().map(|&(lambda, value)| Knot { lambda, value, slope: 0.0 }).collect();
+        for i in 1..knots.len() {
+            let (here, next) = (knots[i - 1], knots[i]);
+            knots[i - 1].slope = (next.value - here.value) / (next.lambda - here.lambda);
+        }
+        let start = knots[0].lambda;
+        let range = knots[knots.len() - 1].lambda - start;
         let buckets = (range.ceil() as usize).clamp(1, MAX_BUCKETS);
-        let last_segment = lambda.len().saturating_sub(2);
-        let mut segment = 0;
+        let mut knot = 0;
         let first = (0..buckets)
             .map(|b| {
-                let start = lambda[0] + range * (b as f32 / buckets as f32);
-                while segment < last_segment && lambda[segment + 1] <= start {
-                    segment += 1;
+                let bucket_start = start + range * (b as f32 / buckets as f32);
+                while knot + 1 < knots.len() && knots[knot + 1].lambda <= bucket_start {
+                    knot += 1;
                 }
-                u16::try_from(segment).unwrap_or(u16::MAX)
+                knot as u32
             })
             .collect();
         let buckets_per_nm = if range > 0.0 { buckets as f32 / range } else { 0.0 };
-        Self { lambda, value, first, buckets_per_nm }
+        Self { knots, first, buckets_per_nm }
     }
 
     /// The value at `lambda` [nm]; zero outside [`Tabulated::range`].
     pub fn at(&self, lambda: f32) -> f32 {
-        let n = self.lambda.len();
-        if !(self.lambda[0]..=self.lambda[n - 1]).contains(&lambda) {
+        let (start, end) = self.range();
+        if !(start..=end).contains(&lambda) {
             return 0.0;
         }
-        if n == 1 {
-            return self.value[0];
-        }
-        let bucket = ((lambda - self.lambda[0]) * self.buckets_per_nm) as usize;
-        let mut i = usize::from(self.first[bucket.min(self.first.len() - 1)]);
+        let bucket = ((lambda - start) * self.buckets_per_nm) as usize;
+        let mut i = self.first[bucket.min(self.first.len() - 1)] as usize;
         // Rounding can put a wavelength into the bucket after its own.
-        while i > 0 && lambda < self.lambda[i] {
+        while i > 0 && lambda < self.knots[i].lambda {
             i -= 1;
         }
-        while lambda > self.lambda[i + 1] {
+        while i + 1 < self.knots.len() && lambda >= self.knots[i + 1].lambda {
             i += 1;
         }
-        let t = (lambda - self.lambda[i]) / (self.lambda[i + 1] - self.lambda[i]);
-        self.value[i] * (1.0 - t) + self.value[i + 1] * t
+        let Knot { lambda: left, value, slope } = self.knots[i];
+        value + slope * (lambda - left)
     }
 
     /// First and last wavelength [nm].
     pub fn range(&self) -> (f32, f32) {
-        (self.lambda[0], self.lambda[self.lambda.len() - 1])
+        (self.knots[0].lambda, self.knots[self.knots.len() - 1].lambda)
     }
 
     /// The samples: wavelength [nm] and value.
     pub fn samples(&self) -> impl ExactSizeIterator<Item = (f32, f32)> + '_ {
-        self.lambda.iter().copied().zip(self.value.iter().copied())
+        self.knots.iter().map(|k| (k.lambda, k.value))
     }
 
     /// Largest value.
     pub fn max_value(&self) -> f32 {
-        self.value.iter().fold(0.0, |a, &b| a.max(b))
+        self.knots.iter().fold(f32::NEG_INFINITY, |a, k| a.max(k.value))
     }
 
     /// The same spectrum with every value multiplied by `factor`.
     #[must_use]
     pub fn scaled(mut self, factor: f32) -> Self {
-        for v in &mut self.value {
-            *v *= factor;
+        for k in &mut self.knots {
+            k.value *= factor;
+            k.slope *= factor;
         }
         self
     }
@@ -172,10 +181,10 @@ impl Tabulated {
         let (start, end) = self.range();
         let mut pairs: Vec<_> = self.samples().collect();
         if min < start {
-            pairs.insert(0, (min, self.value[0]));
+            pairs.insert(0, (min, self.knots[0].value));
         }
         if max > end {
-            pairs.push((max, self.value[self.value.len() - 1]));
+            pairs.push((max, self.knots[self.knots.len() - 1].value));
         }
         Self::from_sorted(&pairs)
     }
@@ -214,7 +223,7 @@ impl Dense {
 
     /// Largest value.
     pub fn max_value(&self) -> f32 {
-        self.value.iter().fold(0.0, |a, &b| a.max(b))
+        self.value.iter().fold(f32::NEG_INFINITY, |a, &b| a.max(b))
     }
 
     /// The same spectrum with every value multiplied by `factor`.

@@ -1,15 +1,20 @@
 //! OpenEXR: channels by name, half, float or integer samples.
 
 use super::limits;
+use crate::color::{Chromaticity, ColorSpaceKind};
 use crate::image::error::ImageError;
 use crate::image::picture::{Image, Layout};
 use exr::prelude::{
-    AnyChannel, AnyChannels, FlatSamples, Image as ExrImage, Layer, ReadChannels, ReadLayers, f16, read,
+    AnyChannel, AnyChannels, FlatSamples, Image as ExrImage, ImageAttributes, Layer, ReadChannels,
+    ReadLayers, f16, read,
 };
 use std::io::Cursor;
 
 /// All parts of an OpenEXR file with all their channels.
-pub(in crate::image) type ExrParts = ExrImage<exr::prelude::SmallVec<[Layer<AnyChannels<FlatSamples>>; 2]>>;
+pub(in crate::image) type ExrParts = ExrImage<exr::prelude::SmallVec<[ExrPart; 2]>>;
+
+/// One part.
+pub(in crate::image) type ExrPart = Layer<AnyChannels<FlatSamples>>;
 
 fn malformed(e: impl std::fmt::Display) -> ImageError {
     ImageError::Malformed { format: "OpenEXR", reason: e.to_string() }
@@ -39,9 +44,19 @@ pub(in crate::image) fn read_parts(bytes: &[u8]) -> Result<ExrParts, ImageError>
         .map_err(malformed)
 }
 
+/// The colour space of the file's chromaticities, sRGB when it has none; `None` for those of no known space.
+pub(in crate::image) fn color_space(attributes: &ImageAttributes) -> Option<ColorSpaceKind> {
+    let Some(found) = attributes.chromaticities else { return Some(ColorSpaceKind::Srgb) };
+    ColorSpaceKind::ALL.into_iter().find(|kind| {
+        let close = |a: exr::math::Vec2<f32>, b: Chromaticity| (a.0 - b.x).abs() + (a.1 - b.y).abs() < 2e-3;
+        let [r, g, b] = kind.primaries();
+        close(found.red, r) && close(found.green, g) && close(found.blue, b)
+    })
+}
+
 /// Reads the first part: R, G, B and A where present, otherwise the luminance Y, otherwise its only channel.
 ///
-/// The picture is what the data window covers. Half samples stay half.
+/// The picture is what the data window covers. Half samples stay half. Unknown chromaticities count as sRGB.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageError> {
     let parts = read_parts(bytes)?;
     let part = parts.layer_data.first().ok_or_else(|| malformed("the file has no part"))?;
@@ -67,7 +82,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageError> {
     let halves: Option<Vec<&[f16]>> = chosen.iter().map(|c| half_samples(c)).collect();
     // `limits::check` has bounded both sides.
     let (width, height) = (width as u32, height as u32);
-    match halves {
+    let image = match halves {
         Some(planes) => Image::from_f16(width, height, layout, interleave(&planes)),
         None => {
             let planes: Vec<Vec<f32>> =
@@ -75,7 +90,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageError> {
             let planes: Vec<&[f32]> = planes.iter().map(Vec::as_slice).collect();
             Image::from_f32(width, height, layout, interleave(&planes))
         }
-    }
+    }?;
+    Ok(image.with_color_space(color_space(&parts.attributes).unwrap_or_default()))
 }
 
 fn half_samples(channel: &AnyChannel<FlatSamples>) -> Option<&[f16]> {

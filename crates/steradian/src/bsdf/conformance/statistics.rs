@@ -1,0 +1,129 @@
+//! The few statistics that a verdict needs.
+
+/// Running mean and variance (Welford 1962).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Moments {
+    n: u64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Moments {
+    pub(super) fn add(&mut self, x: f64) {
+        self.n += 1;
+        let d = x - self.mean;
+        self.mean += d / self.n as f64;
+        self.squares += d * (x - self.mean);
+    }
+
+    pub(super) fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Standard error of the mean.
+    pub(super) fn error(&self) -> f64 {
+        (self.squares / (self.n.max(2) - 1) as f64 / self.n.max(1) as f64).sqrt()
+    }
+}
+
+/// Pearson's test of counts against expectations.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ChiSquared {
+    pub(super) statistic: f64,
+    pub(super) degrees_of_freedom: u32,
+    /// Probability of a statistic at least as large when the counts follow the expectations.
+    pub(super) p: f64,
+}
+
+impl ChiSquared {
+    /// Cells that expect fewer than five counts are pooled into one.
+    pub(super) fn test(observed: &[f64], expected: &[f64]) -> Self {
+        let (mut statistic, mut cells) = (0.0, 0_u32);
+        let mut pool = (0.0, 0.0);
+        for (&o, &e) in observed.iter().zip(expected) {
+            if e < 5.0 {
+                pool = (pool.0 + o, pool.1 + e);
+            } else {
+                statistic += (o - e) * (o - e) / e;
+                cells += 1;
+            }
+        }
+        if pool.1 >= 5.0 {
+            statistic += (pool.0 - pool.1) * (pool.0 - pool.1) / pool.1;
+            cells += 1;
+        } else if pool.0 > pool.1 + 10.0 {
+            // Counts where next to none may be: the statistic has no χ² limit, and needs none.
+            return Self { statistic: f64::INFINITY, degrees_of_freedom: cells, p: 0.0 };
+        }
+        let degrees_of_freedom = cells.saturating_sub(1).max(1);
+        Self {
+            statistic,
+            degrees_of_freedom,
+            p: upper_gamma(f64::from(degrees_of_freedom) / 2.0, statistic / 2.0),
+        }
+    }
+}
+
+/// Regularised upper incomplete gamma function Q(a, x) for a > 0, x ≥ 0: series below the mean, Lentz's
+/// continued fraction above it (Abramowitz & Stegun 6.5.29, 6.5.31).
+fn upper_gamma(a: f64, x: f64) -> f64 {
+    if x <= 0.0 {
+        return 1.0;
+    }
+    let front = (a * x.ln() - x - ln_gamma(a)).exp();
+    if x < a + 1.0 {
+        let (mut term, mut sum, mut n) = (1.0 / a, 1.0 / a, a);
+        while term > sum * 1e-15 {
+            n += 1.0;
+            term *= x / n;
+            sum += term;
+        }
+        return (1.0 - sum * front).max(0.0);
+    }
+    const TINY: f64 = 1e-300;
+    let mut b = x + 1.0 - a;
+    let (mut c, mut d) = (1.0 / TINY, 1.0 / b);
+    let mut h = d;
+    for i in 1..10_000 {
+        let i = f64::from(i);
+        let an = -i * (i - a);
+        b += 2.0;
+        d = 1.0 / (an * d + b).abs().max(TINY).copysign(an * d + b);
+        c = b + an / c;
+        h *= d * c;
+        if (d * c - 1.0).abs() < 1e-15 {
+            break;
+        }
+    }
+    (front * h).min(1.0)
+}
+
+/// ln Γ(x) for x > 0: Stirling's series, shifted to where eight digits need four terms.
+fn ln_gamma(mut x: f64) -> f64 {
+    let mut shift = 0.0;
+    while x < 10.0 {
+        shift += x.ln();
+        x += 1.0;
+    }
+    let r = 1.0 / (x * x);
+    let series = (1.0 / 12.0 - r * (1.0 / 360.0 - r * (1.0 / 1260.0 - r / 1680.0))) / x;
+    (x - 0.5) * x.ln() - x + 0.5 * std::f64::consts::TAU.ln() + series - shift
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use statrs::distribution::ContinuousCDF;
+
+    #[test]
+    fn survival_of_chi_squared_agrees_with_an_independent_library() {
+        for k in [1.0, 2.0, 7.0, 50.0, 900.0] {
+            let reference = statrs::distribution::ChiSquared::new(k).unwrap();
+            for factor in [0.1, 0.7, 1.0, 1.2, 1.6] {
+                let x = k * factor;
+                let (p, q) = (upper_gamma(k / 2.0, x / 2.0), reference.sf(x));
+                assert!((p - q).abs() < 1e-9, "{k} {x}: {p} {q}");
+            }
+        }
+    }
+}

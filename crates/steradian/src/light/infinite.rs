@@ -1,0 +1,154 @@
+//! Lights at infinity: parallel light, a uniform sky, and environment maps.
+
+use super::contract::{LightError, LightPower, LightSample, LightTarget};
+use super::normalise::{Emission, Stated};
+use super::picture::EmissionPicture;
+use crate::math::distribution::PiecewiseConstant2D;
+use crate::math::warp::{
+    UNIFORM_SPHERE_PDF, equal_area_sphere_to_square, equal_area_square_to_sphere, uniform_sphere,
+};
+use crate::math::{Dir, Point, Transform, Vec2, Vec3};
+use crate::spectrum::{Sampled, Spectrum, Wavelengths};
+use crate::units::{Density, PdfSolidAngle, Radiance};
+use std::f32::consts::PI;
+
+/// Parallel light.
+#[derive(Clone, Debug)]
+pub struct DistantLight {
+    wi: Dir,
+    /// On a plane perpendicular to it.
+    irradiance: Emission,
+}
+
+impl DistantLight {
+    /// Light that travels from `from` towards `to` (light space). A stated total is the illuminance [lx] of a plane
+    /// perpendicular to it.
+    pub fn new(
+        render_from_light: Transform,
+        from: Point,
+        to: Point,
+        irradiance: Spectrum,
+        stated: &Stated,
+    ) -> Result<Self, LightError> {
+        let wi = Dir::new(from - to).ok_or(LightError::NoDirection)?;
+        let wi = render_from_light.direction(wi).ok_or(LightError::Singular)?;
+        Ok(Self { wi, irradiance: Emission::new(irradiance, stated, 1.0)? })
+    }
+
+    pub(super) fn sample(&self, w: &Wavelengths) -> Option<LightSample> {
+        let radiance = self.irradiance.at(w);
+        (!radiance.is_zero()).then_some(LightSample {
+            wi: self.wi,
+            radiance,
+            density: Density::Delta,
+            target: LightTarget::Infinite,
+        })
+    }
+
+    /// Through the disk that the scene's bounding sphere shows.
+    pub(super) fn power(&self, scene_radius: f32) -> LightPower {
+        let area = PI * scene_radius * scene_radius;
+        LightPower { watts: self.irradiance.watts() * area, lumens: self.irradiance.lumens() * area }
+    }
+}
+
+/// The same radiance from every direction.
+#[derive(Clone, Debug)]
+pub struct UniformInfiniteLight {
+    radiance: Emission,
+}
+
+impl UniformInfiniteLight {
+    /// A stated total is the illuminance [lx] of a plane, π times the luminance.
+    pub fn new(radiance: Spectrum, stated: &Stated) -> Result<Self, LightError> {
+        Ok(Self { radiance: Emission::new(radiance, stated, PI)? })
+    }
+
+    pub(super) fn sample(&self, u: Vec2, w: &Wavelengths) -> Option<LightSample> {
+        let radiance = self.escaped(w);
+        let density = Density::SolidAngle(self.density());
+        let wi = Dir::new_unchecked(uniform_sphere(u));
+        (!radiance.is_zero()).then_some(LightSample { wi, radiance, density, target: LightTarget::Infinite })
+    }
+
+    pub(super) fn escaped(&self, w: &Wavelengths) -> Sampled<Radiance> {
+        self.radiance.at(w)
+    }
+
+    pub(super) fn density(&self) -> PdfSolidAngle {
+        PdfSolidAngle(UNIFORM_SPHERE_PDF)
+    }
+
+    /// Into the scene's bounding sphere: π L over its surface 4πr².
+    pub(super) fn power(&self, scene_radius: f32) -> LightPower {
+        let geometry = 4.0 * PI * PI * scene_radius * scene_radius;
+        LightPower { watts: self.radiance.watts() * geometry, lumens: self.radiance.lumens() * geometry }
+    }
+}
+
+/// Radiance by direction from an equal-area octahedral square (Clarberg 2008), z up.
+#[derive(Clone, Debug)]
+pub struct ImageInfiniteLight {
+    render_from_light: Transform,
+    light_from_render: Transform,
+    picture: EmissionPicture,
+    density: PiecewiseConstant2D,
+    mean: Vec3,
+}
+
+impl ImageInfiniteLight {
+    /// A stated total is the illuminance [lx] of a plane facing +z of light space, by the upper half of the picture.
+    pub fn new(
+        render_from_light: Transform,
+        mut picture: EmissionPicture,
+        stated: &Stated,
+    ) -> Result<Self, LightError> {
+        let (width, height) = (picture.image().width(), picture.image().height());
+        if width != height {
+            return Err(LightError::NotSquare(width, height));
+        }
+        // Every texel subtends 4π over their number.
+        let horizontal = picture.mean(|st| equal_area_square_to_sphere(st).z.max(0.0)) * (4.0 * PI);
+        let lux = picture.luminance(horizontal);
+        picture.set_factor(stated.multiplier(picture.white_integral(), lux)?);
+        let mut importance = Vec::with_capacity(width as usize * height as usize);
+        for y in 0..height {
+            for x in 0..width {
+                importance.push(picture.image().rgb(x, y).0.max(Vec3::ZERO).element_sum() / 3.0);
+            }
+        }
+        let density = PiecewiseConstant2D::new(&importance, width as usize, height as usize);
+        let mean = picture.mean(|_| 1.0);
+        Ok(Self { render_from_light, light_from_render: render_from_light.inverse(), picture, density, mean })
+    }
+
+    pub(super) fn sample(&self, u: Vec2, w: &Wavelengths) -> Option<LightSample> {
+        let (st, area_density) = self.density.sample(u);
+        let wi = Dir::new(self.render_from_light.vector(equal_area_square_to_sphere(st)))?;
+        let radiance = self.picture.light(self.picture.nearest(st), w);
+        if area_density <= 0.0 || radiance.is_zero() {
+            return None;
+        }
+        let density = Density::SolidAngle(PdfSolidAngle(area_density * UNIFORM_SPHERE_PDF));
+        Some(LightSample { wi, radiance, density, target: LightTarget::Infinite })
+    }
+
+    fn square(&self, wi: Dir) -> Option<Vec2> {
+        self.light_from_render.direction(wi).map(|d| equal_area_sphere_to_square(*d))
+    }
+
+    pub(super) fn escaped(&self, wi: Dir, w: &Wavelengths) -> Sampled<Radiance> {
+        self.square(wi).map_or(Sampled::ZERO, |st| self.picture.light(self.picture.nearest(st), w))
+    }
+
+    pub(super) fn density(&self, wi: Dir) -> PdfSolidAngle {
+        PdfSolidAngle(self.square(wi).map_or(0.0, |st| self.density.pdf(st) * UNIFORM_SPHERE_PDF))
+    }
+
+    /// Into the scene's bounding sphere.
+    pub(super) fn power(&self, scene_radius: f32) -> LightPower {
+        let mean = self.picture.integrals(self.mean);
+        let geometry = 4.0 * PI * PI * scene_radius * scene_radius;
+        LightPower { watts: mean.watts * geometry, lumens: mean.lumens * geometry }
+    }
+}

@@ -1,0 +1,180 @@
+//! Which emitter to sample.
+
+use super::contract::{Emitter, LightId};
+use crate::math::distribution::AliasTable;
+
+/// An emitter and the probability with which it was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chosen {
+    /// The emitter.
+    pub emitter: Emitter,
+    /// Its probability, positive.
+    pub probability: f32,
+}
+
+/// What the selection knows of one light.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate<'a> {
+    /// The light.
+    pub light: LightId,
+    /// Whether it shines from infinity, without a place of its own.
+    pub infinite: bool,
+    /// Relative importance of each of its primitives; one entry for a light without a shape.
+    pub weights: &'a [f32],
+}
+
+/// Chooses emitters in constant time: lights at infinity with equal probability, all others together once as
+/// often as one of those, by power among themselves.
+///
+/// Power does not compare across the two groups: that of a sky grows with the size of the scene, and would
+/// starve every lamp of an interior.
+#[derive(Clone, Debug, Default)]
+pub struct LightSampler {
+    infinite: Vec<LightId>,
+    emitters: Vec<Emitter>,
+    /// `None` when no local emitter emits.
+    local: Option<AliasTable>,
+    /// Where each light's entries begin.
+    places: Vec<Place>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// Never chosen.
+    Nowhere,
+    Infinite,
+    Local(u32),
+}
+
+impl LightSampler {
+    /// A selection among `candidates`; weights that are not positive and finite are never chosen.
+    pub fn new<'a>(candidates: impl IntoIterator<Item = Candidate<'a>>) -> Self {
+        let mut sampler = Self::default();
+        let mut weights = Vec::new();
+        for candidate in candidates {
+            let usable = |w: f32| if w > 0.0 && w.is_finite() { w } else { 0.0 };
+            let slot = candidate.light.0 as usize;
+            if sampler.places.len() <= slot {
+                sampler.places.resize(slot + 1, Place::Nowhere);
+            }
+            if candidate.infinite {
+                if candidate.weights.iter().any(|&w| usable(w) > 0.0) {
+                    sampler.infinite.push(candidate.light);
+                    sampler.places[slot] = Place::Infinite;
+                }
+                continue;
+            }
+            sampler.places[slot] = Place::Local(sampler.emitters.len() as u32);
+            for (prim, &w) in (0..).zip(candidate.weights) {
+                sampler.emitters.push(Emitter { light: candidate.light, prim });
+                weights.push(usable(w));
+            }
+        }
+        sampler.local = AliasTable::new(&weights);
+        sampler
+    }
+
+    /// Probability of choosing the group of local emitters.
+    fn local_share(&self) -> f32 {
+        match self.local {
+            Some(_) => 1.0 / (1.0 + self.infinite.len() as f32),
+            None => 0.0,
+        }
+    }
+
+    /// Chooses an emitter with `u` in [0, 1); `None` when nothing emits.
+    pub fn sample(&self, u: f32) -> Option<Chosen> {
+        let share = self.local_share();
+        match &self.local {
+            Some(table) if u < share || self.infinite.is_empty() => {
+                let d = table.sample((u / share).min(crate::math::float::ONE_MINUS_EPSILON));
+                Some(Chosen { emitter: self.emitters[d.index], probability: d.p * share })
+            }
+            _ => {
+                let n = self.infinite.len();
+                let index =
+                    (((u - share) / (1.0 - share) * n as f32).max(0.0) as usize).min(n.checked_sub(1)?);
+                let emitter = Emitter { light: self.infinite[index], prim: 0 };
+                Some(Chosen { emitter, probability: (1.0 - share) / n as f32 })
+            }
+        }
+    }
+
+    /// Probability with which `emitter` is chosen; zero for one that is never.
+    pub fn probability(&self, emitter: Emitter) -> f32 {
+        match self.places.get(emitter.light.0 as usize) {
+            Some(Place::Infinite) => (1.0 - self.local_share()) / self.infinite.len() as f32,
+            Some(&Place::Local(first)) => self
+                .local
+                .as_ref()
+                .map_or(0.0, |t| t.probability(first as usize + emitter.prim as usize) * self.local_share()),
+            Some(Place::Nowhere) | None => 0.0,
+        }
+    }
+
+    /// The lights at infinity that emit.
+    pub fn infinite(&self) -> &[LightId] {
+        &self.infinite
+    }
+
+    /// Number of emitters that may be chosen, including those of weight zero.
+    pub fn len(&self) -> usize {
+        self.infinite.len() + self.emitters.len()
+    }
+
+    /// Whether there is nothing to choose.
+    pub fn is_empty(&self) -> bool {
+        self.infinite.is_empty() && self.local.is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn candidate(light: u32, infinite: bool, weights: &[f32]) -> Candidate<'_> {
+        Candidate { light: LightId(light), infinite, weights }
+    }
+
+    #[test]
+    fn choices_follow_their_probabilities() {
+        let s = LightSampler::new([
+            candidate(0, false, &[1.0]),
+            candidate(1, true, &[5.0]),
+            candidate(2, false, &[2.0, 0.0, f32::NAN, 1.0]),
+            candidate(3, true, &[0.0]),
+            candidate(4, true, &[1e9]),
+        ]);
+        let n = 90_000;
+        let mut counts = std::collections::BTreeMap::new();
+        for i in 0..n {
+            let c = s.sample((i as f32 + 0.5) / n as f32).unwrap();
+            assert_eq!(c.probability, s.probability(c.emitter));
+            *counts.entry(c.emitter).or_insert(0) += 1;
+        }
+        // Two lights at infinity and one group of lamps, a third each; within it 1 : 2 : 1.
+        let expected =
+            [(0, 0, 1.0 / 12.0), (1, 0, 1.0 / 3.0), (2, 0, 1.0 / 6.0), (2, 3, 1.0 / 12.0), (4, 0, 1.0 / 3.0)];
+        assert_eq!(counts.len(), expected.len());
+        for (light, prim, p) in expected {
+            let e = Emitter { light: LightId(light), prim };
+            assert!(
+                (counts[&e] as f32 / n as f32 - p).abs() < 1e-3 && (s.probability(e) - p).abs() < 1e-6,
+                "{e:?}"
+            );
+        }
+        let zero =
+            [(2, 1), (2, 2), (3, 0), (9, 0)].map(|(light, prim)| Emitter { light: LightId(light), prim });
+        assert!(zero.iter().all(|&e| s.probability(e) == 0.0));
+    }
+
+    #[test]
+    fn nothing_is_chosen_when_nothing_emits() {
+        let s = LightSampler::new([candidate(0, false, &[0.0]), candidate(1, true, &[0.0])]);
+        assert!(s.sample(0.3).is_none() && s.is_empty());
+        let only_sky = LightSampler::new([candidate(0, true, &[1.0])]);
+        assert_eq!(only_sky.sample(0.999_999).unwrap().probability, 1.0);
+        let only_lamp = LightSampler::new([candidate(0, false, &[1.0])]);
+        assert_eq!(only_lamp.sample(0.999_999).unwrap().probability, 1.0);
+    }
+}

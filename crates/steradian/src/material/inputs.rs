@@ -1,0 +1,171 @@
+//! Groups of parameters that several materials share, and their values at a point.
+
+use crate::bsdf::{Coat, Conductor, Dielectric, ExitWeights};
+use crate::math::{Footprint, SurfacePoint};
+use crate::optics::TrowbridgeReitz;
+use crate::spectrum::{Sampled, Spectrum, Wavelengths};
+use crate::texture::{FloatInput, SpectrumInput, TextureContext, Textures};
+use crate::units::Unitless;
+
+/// What parameters are evaluated with: textures, a place, and a path's wavelengths.
+pub(super) struct Lookup<'a> {
+    textures: &'a Textures,
+    at: TextureContext<'a>,
+    wavelengths: &'a mut Wavelengths,
+}
+
+impl<'a> Lookup<'a> {
+    pub(super) fn new(
+        textures: &'a Textures,
+        point: &'a SurfacePoint,
+        footprint: &'a Footprint,
+        wavelengths: &'a mut Wavelengths,
+    ) -> Self {
+        Self { textures, at: TextureContext { point, footprint }, wavelengths }
+    }
+
+    pub(super) fn float(&self, input: &FloatInput) -> f32 {
+        self.textures.float_input(input, &self.at)
+    }
+
+    pub(super) fn spectrum(&self, input: &SpectrumInput) -> Sampled<Unitless> {
+        self.textures.spectrum_input(input, &self.at, self.wavelengths)
+    }
+
+    /// A reflectance, limited to what a surface can reflect.
+    pub(super) fn reflectance(&self, input: &SpectrumInput) -> Sampled<Unitless> {
+        self.spectrum(input).clamp(0.0, 1.0)
+    }
+
+    /// The index at the hero wavelength. Where it disperses, directions belong to the hero alone from here on.
+    pub(super) fn index(&mut self, eta: &Spectrum) -> f32 {
+        let value = eta.constant_value().unwrap_or_else(|| {
+            self.wavelengths.terminate_companions();
+            eta.at(self.wavelengths.lambda()[0])
+        });
+        // Zero stands for "no value" in scene files: a medium without contrast.
+        if value > 0.0 { value } else { 1.0 }
+    }
+}
+
+/// What a number for the roughness means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RoughnessScale {
+    /// Roughness in [0, 1]; α is its square root.
+    #[default]
+    Perceptual,
+    /// The microfacet width α itself.
+    Alpha,
+}
+
+/// Roughness along the two tangents.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Roughness {
+    /// Along ∂p/∂u.
+    pub u: FloatInput,
+    /// Along ∂p/∂v.
+    pub v: FloatInput,
+    /// What the numbers mean.
+    pub scale: RoughnessScale,
+}
+
+impl Roughness {
+    /// A smooth surface.
+    pub const SMOOTH: Self = Self {
+        u: FloatInput::Constant(0.0),
+        v: FloatInput::Constant(0.0),
+        scale: RoughnessScale::Perceptual,
+    };
+
+    pub(super) fn at(&self, lookup: &Lookup) -> TrowbridgeReitz {
+        let alpha = |input| {
+            let value = lookup.float(input);
+            match self.scale {
+                RoughnessScale::Perceptual => TrowbridgeReitz::alpha_from_roughness(value),
+                RoughnessScale::Alpha => value.max(0.0),
+            }
+        };
+        TrowbridgeReitz::new(alpha(&self.u), alpha(&self.v))
+    }
+}
+
+/// How a metal is given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Metal {
+    /// Its complex index of refraction eta + j k.
+    Index {
+        /// Real part.
+        eta: SpectrumInput,
+        /// Imaginary part.
+        k: SpectrumInput,
+    },
+    /// Its reflectance at normal incidence, from which an index 1 + j k follows (pbrt-v4 book, 10.5.2).
+    Reflectance(SpectrumInput),
+}
+
+impl Metal {
+    pub(super) fn at(&self, roughness: &Roughness, lookup: &Lookup) -> Conductor {
+        let (eta, k) = match self {
+            Self::Index { eta, k } => (lookup.spectrum(eta), lookup.spectrum(k)),
+            Self::Reflectance(r) => {
+                // At one, k would be infinite.
+                let r = lookup.spectrum(r).clamp(0.0, 0.9999);
+                (Sampled::ONE, r.map(|r| 2.0 * r.sqrt() / (1.0 - r).sqrt()))
+            }
+        };
+        Conductor { eta, k, roughness: roughness.at(lookup) }
+    }
+}
+
+/// A dielectric coat with a medium under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoatInput {
+    /// Index of the coat.
+    pub eta: Spectrum,
+    /// Roughness of the upper interface.
+    pub roughness: Roughness,
+    /// Optical thickness of the medium.
+    pub thickness: FloatInput,
+    /// Single-scattering albedo of the medium.
+    pub albedo: SpectrumInput,
+    /// Mean cosine of scattering in the medium.
+    pub g: FloatInput,
+    /// Most events of one random walk.
+    pub max_depth: u16,
+    /// Random walks per value.
+    pub samples: u16,
+    /// How a walk's ways through the coat are weighed.
+    pub weights: ExitWeights,
+}
+
+impl Default for CoatInput {
+    /// The scene format's defaults: thickness 0.01, index 1.5, smooth, ten events, one walk, no scattering
+    /// between the layers; weighed as the program that defines the format does.
+    fn default() -> Self {
+        Self {
+            eta: Spectrum::Constant(1.5),
+            roughness: Roughness::SMOOTH,
+            thickness: FloatInput::Constant(0.01),
+            albedo: SpectrumInput::Constant(Spectrum::Constant(0.0)),
+            g: FloatInput::Constant(0.0),
+            max_depth: 10,
+            samples: 1,
+            weights: ExitWeights::Pbrt4,
+        }
+    }
+}
+
+impl CoatInput {
+    pub(super) fn at(&self, lookup: &mut Lookup) -> Coat {
+        Coat {
+            interface: Dielectric { eta: lookup.index(&self.eta), roughness: self.roughness.at(lookup) },
+            // Walks move between two different depths.
+            thickness: lookup.float(&self.thickness).max(f32::MIN_POSITIVE),
+            albedo: lookup.reflectance(&self.albedo),
+            g: lookup.float(&self.g).clamp(-1.0, 1.0),
+            max_depth: self.max_depth,
+            samples: self.samples.max(1),
+            weights: self.weights,
+        }
+    }
+}
