@@ -158,7 +158,6 @@ pub fn read_frame_exr(bytes: &[u8]) -> Result<Frame, ImageError> {
             }
         }
         // Attributes are kept sorted by name, so the order of the hash map does not show.
-        #[expect(clippy::iter_over_hash_type, reason = "the result is a sorted map")]
         for (name, value) in own.other.iter().chain(&parts.attributes.other) {
             let value = match value {
                 AttributeValue::Text(t) => string(t),
@@ -231,7 +230,8 @@ mod tests {
     fn the_same_frame_gives_the_same_bytes() {
         // Many blocks, which threads compress in any order, and many attributes, which a hash map shuffles.
         let tall = || {
-            let mut frame = Frame::from_rgb([7, 200], ColorSpaceKind::Srgb, |i| [(i as f32).sin(); 3]).unwrap();
+            let mut frame =
+                Frame::from_rgb([7, 200], ColorSpaceKind::Srgb, |i| [(i as f32).sin(); 3]).unwrap();
             specimen().attributes().for_each(|(name, value)| frame.set_attribute(name, value));
             frame
         };

@@ -235,8 +235,8 @@ impl Image {
         Self { layout: Layout::Rgb, texels, ..self }
     }
 
-    /// All linear values, channels interleaved.
-    pub(crate) fn to_linear(&self) -> Vec<f32> {
+    /// All linear values, channels interleaved, rows from the top.
+    pub fn to_linear(&self) -> Vec<f32> {
         (0..self.width as usize * self.height as usize * self.layout.channels())
             .map(|i| self.value(i))
             .collect()

@@ -121,7 +121,7 @@ fn ewa<R: Reading>(
         minor *= scale;
         short *= scale;
     }
-    if !(short > 0.0) {
+    if short.is_nan() || short <= 0.0 {
         return R::bilerp(pyramid.level(0), st, wrap);
     }
     let top = pyramid.n_levels() - 1;
