@@ -180,3 +180,6 @@ impl LightSampler {
         }))
     }
 }
+
+#[cfg(test)]
+mod laws;
