@@ -82,8 +82,8 @@ impl Perceived {
         let rgb = frame.rgb()?;
         let mut planes = [(); 3].map(|()| Vec::with_capacity(rgb.len()));
         for i in 0..rgb.len() {
-            // `max` before `min` turns NaN into zero.
-            let opponent = opponent_from_rgb(rgb.pixel(i).map(|v| v.max(0.0).min(1.0)));
+            let displayed = |v: f32| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) };
+            let opponent = opponent_from_rgb(rgb.pixel(i).map(displayed));
             planes.iter_mut().zip(opponent).for_each(|(plane, v)| plane.push(v));
         }
         let width = width as usize;
@@ -285,6 +285,31 @@ mod tests {
     }
 
     #[test]
+    fn it_agrees_with_the_authors_implementation() {
+        // Means and pixels (0, 0), (24, 20), (47, 39) by flip-evaluator 1.7 for the same pictures, linear input.
+        let picture = |p: f64| {
+            frame(move |x, y| {
+                let patch = if (x / 8 + y / 8).is_multiple_of(2) { 0.0 } else { 0.3 };
+                let (x, y) = (x as f64, y as f64);
+                let r = 0.5 + 0.4 * (0.3 * x + p).sin() * (0.2 * y).cos();
+                let g = 0.5 + 0.4 * (0.17 * x * (1.0 + p)).sin();
+                let b = 0.3 + 0.2 * (0.5 * y + 2.0 * p).cos() + patch * p;
+                [r, g, b].map(|v| v.clamp(0.0, 1.0) as f32)
+            })
+        };
+        for (p, q, expected) in [
+            (0.0, 0.5, [0.777_349_2, 0.445_157, 0.757_331_97, 0.968_764_66]),
+            (0.0, 0.05, [0.242_569_34, 0.082_793_29, 0.320_175_35, 0.218_753_59]),
+            (0.2, 1.0, [0.767_847_4, 0.652_819_34, 0.970_875_44, 0.229_520_3]),
+        ] {
+            let map = flip(&picture(p), &picture(q), DEFAULT_PIXELS_PER_DEGREE).unwrap();
+            let at = |x: usize, y: usize| map.values[y * 48 + x];
+            let got = [map.mean() as f32, at(0, 0), at(24, 20), at(47, 39)];
+            assert!((0..4).all(|i| (got[i] - expected[i]).abs() < 2e-3), "{p} {q}: {got:?} for {expected:?}");
+        }
+    }
+
+    #[test]
     fn a_larger_error_is_perceived_as_larger() {
         let base = frame(|_, _| [0.4; 3]);
         let series: Vec<f64> = [0.02, 0.1, 0.4, 0.8].iter().map(|&a| mean(&noise(3, a), &base)).collect();
@@ -296,7 +321,9 @@ mod tests {
         // Blue and yellow of one pixel alternate at 33 cycles per degree, far beyond the eye's resolution;
         // in patches of 12 pixels the same colours are seen.
         let pattern = |n: usize| {
-            frame(move |x, y| if (x / n + y / n) % 2 == 0 { [0.3, 0.3, 0.6] } else { [0.3, 0.3, 0.0] })
+            frame(
+                move |x, y| if (x / n + y / n).is_multiple_of(2) { [0.3, 0.3, 0.6] } else { [0.3, 0.3, 0.0] },
+            )
         };
         let average = frame(|_, _| [0.3; 3]);
         let (fine, coarse) = (mean(&pattern(1), &average), mean(&pattern(12), &average));
