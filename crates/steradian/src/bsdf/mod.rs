@@ -8,7 +8,9 @@ pub mod contract;
 pub mod dielectric;
 pub mod diffuse;
 pub mod layered;
+mod quadrature;
 pub mod specimen;
+pub mod varnished;
 
 pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
@@ -16,6 +18,7 @@ pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
 pub use layered::{Coat, ExitWeights, Layered};
 pub use specimen::{Claims, Specimen};
+pub use varnished::VarnishedDiffuse;
 
 use crate::math::{LocalDir, Vec2};
 use crate::spectrum::Sampled;
@@ -34,6 +37,8 @@ pub enum Bsdf {
     Dielectric(Dielectric),
     /// A pane without thickness.
     ThinDielectric(ThinDielectric),
+    /// A smooth clear coat over a Lambertian base.
+    VarnishedDiffuse(VarnishedDiffuse),
     /// A dielectric coat over a Lambertian base.
     CoatedDiffuse(Layered<Diffuse>),
     /// A dielectric coat over a metal.
@@ -53,6 +58,7 @@ impl Bsdf {
             Self::Conductor(b) => b.eval(wo, wi),
             Self::Dielectric(b) => b.eval(wo, wi, mode),
             Self::ThinDielectric(_) => Sampled::ZERO,
+            Self::VarnishedDiffuse(b) => b.eval(wo, wi),
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
             Self::CoatedConductor(b) => b.eval(wo, wi, mode),
         }
@@ -66,6 +72,7 @@ impl Bsdf {
             Self::Conductor(b) => b.pdf(wo, wi),
             Self::Dielectric(b) => b.pdf(wo, wi),
             Self::ThinDielectric(_) => PdfSolidAngle(0.0),
+            Self::VarnishedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedConductor(b) => b.pdf(wo, wi),
         }
@@ -80,6 +87,7 @@ impl Bsdf {
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u, mode),
             Self::ThinDielectric(b) => b.sample(wo, uc),
+            Self::VarnishedDiffuse(b) => b.sample(wo, uc, u),
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
         }
@@ -93,6 +101,7 @@ impl Bsdf {
             Self::Conductor(b) => b.lobes(),
             Self::Dielectric(b) => b.lobes(),
             Self::ThinDielectric(_) => Lobes::default(),
+            Self::VarnishedDiffuse(b) => b.lobes(),
             Self::CoatedDiffuse(b) => b.lobes(),
             Self::CoatedConductor(b) => b.lobes(),
         }
@@ -105,6 +114,12 @@ impl Bsdf {
             Self::Diffuse(_) | Self::DiffuseTransmission(_) | Self::ThinDielectric(_) => {}
             Self::Conductor(b) => b.regularize(),
             Self::Dielectric(b) => b.regularize(),
+            Self::VarnishedDiffuse(b) => {
+                // Widened, the coat is rough: the closed form ends.
+                let mut layers = *b.layers();
+                layers.regularize();
+                *self = Self::CoatedDiffuse(layers);
+            }
             Self::CoatedDiffuse(b) => b.regularize(),
             Self::CoatedConductor(b) => b.regularize(),
         }
@@ -120,7 +135,8 @@ impl Bsdf {
             | Self::DiffuseTransmission(_)
             | Self::Conductor(_)
             | Self::Dielectric(_)
-            | Self::ThinDielectric(_) => {}
+            | Self::ThinDielectric(_)
+            | Self::VarnishedDiffuse(_) => {}
         }
         self
     }
@@ -133,6 +149,7 @@ impl Bsdf {
         all.extend(Conductor::specimens().map(|s| s.map(Self::Conductor)));
         all.extend(Dielectric::specimens().map(|s| s.map(Self::Dielectric)));
         all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));
+        all.extend(VarnishedDiffuse::specimens().map(|s| s.map(Self::VarnishedDiffuse)));
         all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
         all.extend(Layered::<Conductor>::specimens().map(|s| s.map(Self::CoatedConductor)));
         all

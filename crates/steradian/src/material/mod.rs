@@ -7,7 +7,9 @@ pub mod surface;
 pub use inputs::{CoatInput, Metal, Roughness, RoughnessScale};
 pub use surface::{SurfaceBsdf, SurfaceSample};
 
-use crate::bsdf::{Bsdf, Dielectric, Diffuse, DiffuseTransmission, Layered, ThinDielectric};
+use crate::bsdf::{
+    Bsdf, Dielectric, Diffuse, DiffuseTransmission, Layered, ThinDielectric, VarnishedDiffuse,
+};
 use crate::image::Image;
 use crate::math::{Dir, Footprint, Shading, SurfacePoint, hash};
 use crate::spectrum::{Spectrum, Wavelengths};
@@ -245,7 +247,8 @@ fn scatterer(material: &Material, lookup: &mut Lookup, seed: u64) -> Option<Bsdf
         Material::ThinDielectric { eta } => Bsdf::ThinDielectric(ThinDielectric { eta: lookup.index(eta) }),
         Material::CoatedDiffuse { reflectance, coat } => {
             let base = Diffuse { reflectance: lookup.reflectance(reflectance) };
-            Bsdf::CoatedDiffuse(Layered { coat: coat.at(lookup), base, seed })
+            let layers = Layered { coat: coat.at(lookup), base, seed };
+            VarnishedDiffuse::new(layers).map_or(Bsdf::CoatedDiffuse(layers), Bsdf::VarnishedDiffuse)
         }
         Material::CoatedConductor { metal, roughness, coat } => {
             let coat = coat.at(lookup);

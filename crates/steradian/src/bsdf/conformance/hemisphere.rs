@@ -1,24 +1,13 @@
 //! Quadrature and counting over cells of the sphere of directions.
 
+use crate::bsdf::quadrature::GAUSS_LEGENDRE;
 use crate::math::{LocalDir, Vec3};
 use std::f64::consts::{PI, TAU};
 
 const THETA_CELLS: usize = 24;
 const PHI_CELLS: usize = 48;
-/// Midpoints along φ in a cell.
+/// Midpoints along φ in a cell; along θ a Gauss rule, since a lobe around the pole is no periodic function of θ.
 const PHI_NODES: usize = 8;
-/// Gauss–Legendre nodes and weights on [0, 1] along θ in a cell: a lobe around the pole is no periodic function of θ,
-/// for which midpoints would do.
-const THETA_NODES: [[f64; 2]; 8] = [
-    [0.0198550717512319, 0.0506142681451882],
-    [0.1016667612931866, 0.1111905172266873],
-    [0.2372337950418355, 0.1568533229389437],
-    [0.4082826787521751, 0.1813418916891810],
-    [0.5917173212478249, 0.1813418916891810],
-    [0.7627662049581645, 0.1568533229389437],
-    [0.8983332387068134, 0.1111905172266873],
-    [0.9801449282487682, 0.0506142681451882],
-];
 
 /// Number of cells.
 pub(super) const CELLS: usize = THETA_CELLS * PHI_CELLS;
@@ -40,14 +29,14 @@ pub(super) struct Node {
 }
 
 /// Number of nodes.
-pub(super) const NODES: usize = CELLS * PHI_NODES * THETA_NODES.len();
+pub(super) const NODES: usize = CELLS * PHI_NODES * GAUSS_LEGENDRE.len();
 
 /// All nodes.
 pub(super) fn nodes() -> impl Iterator<Item = Node> {
     let n_phi = PHI_CELLS * PHI_NODES;
     let step = PI / THETA_CELLS as f64;
     (0..THETA_CELLS).flat_map(move |i| {
-        THETA_NODES.iter().flat_map(move |&[x, weight]| {
+        GAUSS_LEGENDRE.iter().flat_map(move |&[x, weight]| {
             let theta = (i as f64 + x) * step;
             let (r, z) = theta.sin_cos();
             let solid_angle = weight * step * r * TAU / n_phi as f64;

@@ -112,7 +112,7 @@ impl Default for Effort {
 /// Examines every law that the specimen claims, for directions above and below the surface.
 pub fn examine(specimen: &Specimen<Bsdf>, effort: &Effort) -> Vec<Finding> {
     let mut findings = Vec::new();
-    for (theta, phi) in [(0.0_f32, 0.0_f32), (35.0, 40.0), (65.0, 250.0), (140.0, 120.0)] {
+    for (theta, phi) in [(0.0_f32, 0.0_f32), (65.0, 250.0), (140.0, 120.0)] {
         let wo = warp::spherical_direction(theta.to_radians(), phi.to_radians());
         let bench =
             Bench { bsdf: specimen.bsdf, claims: specimen.claims, effort, wo: LocalDir::new_unchecked(wo) };
@@ -250,7 +250,9 @@ impl Bench<'_> {
         let mut density = vec![0.0; hemisphere::CELLS];
         let mut power = Moments::default();
         for node in hemisphere::nodes() {
-            density[node.cell] += f64::from(self.bsdf.pdf(self.wo, node.w, mode).0) * node.solid_angle;
+            if self.claims.closed_form {
+                density[node.cell] += f64::from(self.bsdf.pdf(self.wo, node.w, mode).0) * node.solid_angle;
+            }
             let f = self.bsdf.eval(self.wo, node.w, mode).mean() * node.w.abs_cos_theta();
             // Times their number: the mean over the nodes is the integral.
             power.add(f64::from(f) * node.solid_angle * hemisphere::NODES as f64);

@@ -1,17 +1,209 @@
 use super::*;
+use crate::bsdf::{Coat, Conductor, Dielectric, Diffuse, ExitWeights, Layered, Side};
+use crate::optics::{TrowbridgeReitz, fresnel};
+use crate::spectrum::Sampled;
+
+fn at(degrees: f32) -> LocalDir {
+    LocalDir::new_unchecked(warp::spherical_direction(degrees.to_radians(), 0.3))
+}
+
+fn rough(alpha: f32) -> TrowbridgeReitz {
+    TrowbridgeReitz::new(alpha, alpha)
+}
+
+fn broken(specimen: &Specimen<Bsdf>, effort: &Effort) -> Vec<Finding> {
+    examine(specimen, effort).into_iter().filter(|f| !f.holds()).collect()
+}
 
 #[test]
 fn every_specimen_obeys_every_law_it_claims() {
-    let mut broken = Vec::new();
+    let effort = Effort { samples: 40_000, ..Effort::default() };
+    let mut report = String::new();
     for specimen in Bsdf::specimens() {
-        for f in examine(&specimen, &Effort::default()) {
-            if !f.holds() {
-                broken.push(format!(
-                    "{}: {:?} at {:?} ({:?}): {:?}",
-                    specimen.name, f.law, *f.wo, f.mode, f.evidence
-                ));
-            }
+        for f in broken(&specimen, &effort) {
+            report +=
+                &format!("{}: {:?} at {:?} ({:?}): {:?}\n", specimen.name, f.law, *f.wo, f.mode, f.evidence);
         }
     }
-    assert!(broken.is_empty(), "{} findings:\n{}", broken.len(), broken.join("\n"));
+    assert!(report.is_empty(), "{report}");
+}
+
+#[test]
+fn false_claims_are_rejected() {
+    let effort = Effort { samples: 40_000, ..Effort::default() };
+    let rejects = |bsdf, claims, law| {
+        let found = broken(&Specimen::new("", claims, bsdf), &effort);
+        assert!(found.iter().any(|f| f.law == law), "{law:?} not missed in {bsdf:?}: {found:?}");
+    };
+    let white = Diffuse { reflectance: Sampled::ONE };
+    // 1 % absorbed.
+    let grey = Diffuse { reflectance: Sampled::splat(0.99) };
+    rejects(Bsdf::Diffuse(grey), Claims::LOSSLESS, Law::Energy);
+    // 1 % too bright: a reflectance above one.
+    rejects(Bsdf::Diffuse(Diffuse { reflectance: Sampled::splat(1.01) }), Claims::CLOSED_FORM, Law::Energy);
+    // The approximate density of layers is not that of their samples.
+    let layers = Layered { coat: Coat::clear(1.5, rough(0.3)), base: white, seed: 1 };
+    rejects(Bsdf::CoatedDiffuse(layers), Claims::CLOSED_FORM, Law::SamplesFollowDensity);
+    rejects(Bsdf::CoatedDiffuse(layers), Claims::CLOSED_FORM, Law::WeightIsRatio);
+    // pbrt-v4's weights return more than light that entered.
+    let coat = Coat { weights: ExitWeights::Pbrt4, ..layers.coat };
+    rejects(Bsdf::CoatedDiffuse(Layered { coat, ..layers }), Claims::ESTIMATED, Law::TwoWaysToReflectance);
+    // A microfacet metal without absorption loses light at roughness 0.5.
+    let mirror = Conductor { eta: Sampled::ZERO, k: Sampled::splat(1e4), roughness: rough(0.5) };
+    rejects(Bsdf::Conductor(mirror), Claims::LOSSLESS, Law::Energy);
+}
+
+/// ρ + τ were masking and shadowing independent of each other, G = G1(wo) G1(wi): Mitsuba's choice. Ours is correlated.
+fn albedo_with_separable_masking(bsdf: Bsdf, d: TrowbridgeReitz, wo: LocalDir) -> Albedo {
+    let mut rng = Pcg32::new(2, 2);
+    let mut m = Moments::default();
+    for _ in 0..100_000 {
+        let weight = draw(&bsdf, wo, Mode::Importance, &mut rng)
+            .map_or(0.0, |s| s.weight[0] * d.g1(wo) * d.g1(s.wi) / d.g(wo, s.wi));
+        m.add(f64::from(weight));
+    }
+    Albedo { value: m.mean(), error: m.error() }
+}
+
+#[test]
+fn rough_metal_without_absorption_agrees_with_an_independent_renderer() {
+    // Mitsuba 3.9.1, GGX without compensation, at 0°, 30°, 60°, 80°; its quadrature and sampling agree to 6e-4.
+    let table = [
+        (0.2, [0.9477, 0.9390, 0.8941, 0.8481]),
+        (0.5, [0.6878, 0.6816, 0.6860, 0.7469]),
+        (1.0, [0.3069, 0.3289, 0.4091, 0.5229]),
+    ];
+    for (alpha, expected) in table {
+        // Reflectance of one at every angle: an infinite index.
+        let mirror = Conductor { eta: Sampled::ZERO, k: Sampled::splat(1e6), roughness: rough(alpha) };
+        for (degrees, expected) in [0.0, 30.0, 60.0, 80.0].into_iter().zip(expected) {
+            let a = albedo_with_separable_masking(Bsdf::Conductor(mirror), rough(alpha), at(degrees));
+            assert!((a.value - expected).abs() < 6e-4 + 4.0 * a.error, "{alpha} {degrees}: {a:?} {expected}");
+        }
+    }
+}
+
+#[test]
+fn rough_glass_agrees_with_an_independent_renderer() {
+    let table = [
+        (0.2, [0.9950, 0.9924, 0.9720, 0.9129]),
+        (0.5, [0.9679, 0.9540, 0.8823, 0.7525]),
+        (1.0, [0.8927, 0.8479, 0.6716, 0.4590]),
+    ];
+    for (alpha, expected) in table {
+        let glass = Dielectric { eta: 1.5, roughness: rough(alpha) };
+        for (degrees, expected) in [0.0, 30.0, 60.0, 80.0].into_iter().zip(expected) {
+            let a = albedo_with_separable_masking(Bsdf::Dielectric(glass), rough(alpha), at(degrees));
+            assert!((a.value - expected).abs() < 6e-4 + 4.0 * a.error, "{alpha} {degrees}: {a:?} {expected}");
+        }
+    }
+}
+
+#[test]
+fn smooth_glass_is_chosen_to_reflect_as_often_as_fresnel_says() {
+    let glass = Bsdf::Dielectric(Dielectric { eta: 1.5, roughness: TrowbridgeReitz::SMOOTH });
+    let mut rng = Pcg32::new(5, 1);
+    let n = 100_000;
+    for degrees in [0.0, 60.0, 80.0, 110.0, 145.0] {
+        let wo = at(degrees);
+        let mut reflected = 0;
+        for _ in 0..n {
+            let s = draw(&glass, wo, Mode::Radiance, &mut rng).unwrap();
+            reflected += u32::from(s.side == Side::Reflection);
+            let scale = if s.side == Side::Reflection { 1.0 } else { 1.0 / (s.eta * s.eta) };
+            assert!((s.weight[0] - scale).abs() < 1e-5, "{degrees}: {s:?}");
+        }
+        let r = f64::from(fresnel::dielectric(wo.z, 1.5));
+        let share = f64::from(reflected) / f64::from(n);
+        let error = (r * (1.0 - r) / f64::from(n)).sqrt();
+        assert!((share - r).abs() <= 4.0 * error, "{degrees}: {share} {r}");
+    }
+}
+
+#[test]
+fn radiance_through_a_slab_of_glass_is_that_of_power() {
+    // (ηo/ηi)² into the glass and out again cancel: both modes transmit (1 − R)² along the straight path.
+    let glass = Bsdf::Dielectric(Dielectric { eta: 1.5, roughness: TrowbridgeReitz::SMOOTH });
+    for mode in [Mode::Radiance, Mode::Importance] {
+        let into = glass.sample(at(40.0), 0.999, Vec2::splat(0.5), mode).unwrap();
+        // The far face looks down: in its frame the ray arrives from below.
+        let inside = LocalDir::new_unchecked(Vec3::new(-into.wi.x, -into.wi.y, into.wi.z));
+        let out = glass.sample(inside, 0.999, Vec2::splat(0.5), mode).unwrap();
+        assert!(
+            (into.weight[0] * out.weight[0] - 1.0).abs() < 1e-5 && (into.eta * out.eta - 1.0).abs() < 1e-6
+        );
+        assert!((out.wi.z - at(40.0).z).abs() < 1e-5, "{:?}", out.wi);
+    }
+}
+
+#[test]
+fn thin_pane_transmits_what_a_slab_does_after_all_internal_reflections() {
+    // R = 2r/(1 + r) for one reflectance r of unpolarised light at both faces.
+    let pane =
+        Bsdf::specimens().into_iter().find(|s| matches!(s.bsdf, Bsdf::ThinDielectric(_))).unwrap().bsdf;
+    for degrees in [0.0, 50.0, 80.0] {
+        let r = fresnel::dielectric(at(degrees).z, 1.5);
+        let expected = 2.0 * r / (1.0 + r);
+        let side = |uc| pane.sample(at(degrees), uc, Vec2::ZERO, Mode::Radiance).unwrap().side;
+        assert_eq!(side(expected - 1e-5), Side::Reflection);
+        assert_eq!(side(expected + 1e-5), Side::Transmission);
+    }
+}
+
+#[test]
+fn clear_layers_over_white_lose_nothing() {
+    // Nothing absorbs and nothing is masked under a smooth coat: every photon comes back.
+    let coat =
+        Coat { thickness: f32::MIN_POSITIVE, max_depth: 1000, ..Coat::clear(1.5, TrowbridgeReitz::SMOOTH) };
+    let layers = Layered { coat, base: Diffuse { reflectance: Sampled::ONE }, seed: 4 };
+    for degrees in [0.0, 50.0, 80.0] {
+        let a = albedo(&Bsdf::CoatedDiffuse(layers), at(degrees), 20_000, 3);
+        assert!((a.value - 1.0).abs() < 1e-4 + 4.0 * a.error, "{degrees}: {a:?}");
+    }
+    // A lossless scattering medium between them changes directions, not the sum.
+    let milky = Coat { thickness: 0.7, albedo: Sampled::ONE, g: 0.5, ..coat };
+    for degrees in [0.0, 50.0, 80.0] {
+        let a = albedo(&Bsdf::CoatedDiffuse(Layered { coat: milky, ..layers }), at(degrees), 20_000, 3);
+        assert!((a.value - 1.0).abs() < 1e-4 + 4.0 * a.error, "{degrees}: {a:?}");
+    }
+}
+
+#[test]
+fn absorbing_layer_over_black_shows_its_surface_only() {
+    let coat = Coat::clear(1.5, TrowbridgeReitz::SMOOTH);
+    let layers = Layered { coat, base: Diffuse { reflectance: Sampled::ZERO }, seed: 4 };
+    let a = albedo(&Bsdf::CoatedDiffuse(layers), at(60.0), 20_000, 3);
+    let r = f64::from(fresnel::dielectric(at(60.0).z, 1.5));
+    assert!((a.value - r).abs() < 4.0 * a.error, "{a:?} {r}");
+}
+
+#[test]
+fn scattering_layer_over_black_matches_adding_doubling() {
+    // Slab without interfaces (η = 1), black below: reflectance for normal and for diffuse incidence by an independent
+    // adding–doubling code, the second slab also after van de Hulst 1980.
+    let table = [
+        (0.5_f32, 1.0_f32, 0.0, 0.099_12, 0.134_17),
+        (0.9, 2.0, 0.75, 0.097_40, 0.191_09),
+        (1.0, 5.0, 0.0, 0.738_72, 0.792_34),
+    ];
+    for (albedo_value, tau, g, normal, diffuse) in table {
+        let coat = Coat {
+            thickness: tau,
+            albedo: Sampled::splat(albedo_value),
+            g,
+            max_depth: 1000,
+            ..Coat::clear(1.0, TrowbridgeReitz::SMOOTH)
+        };
+        let layers = Layered { coat, base: Diffuse { reflectance: Sampled::ZERO }, seed: 4 };
+        let bsdf = Bsdf::CoatedDiffuse(layers);
+        let a = albedo(&bsdf, at(0.0), 60_000, 3);
+        assert!((a.value - normal).abs() < 1e-4 + 4.0 * a.error, "{a:?} {normal}");
+        let mut rng = Pcg32::new(8, 8);
+        let mut m = Moments::default();
+        for _ in 0..60_000 {
+            let wi = warp::cosine_hemisphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+            m.add(draw(&bsdf, wi, Mode::Importance, &mut rng).map_or(0.0, |s| f64::from(s.weight[0])));
+        }
+        assert!((m.mean() - diffuse).abs() < 1e-4 + 4.0 * m.error(), "{} {diffuse}", m.mean());
+    }
 }
