@@ -11,17 +11,17 @@ use exr::prelude::{
 use std::io::Cursor;
 
 /// All parts of an OpenEXR file with all their channels.
-pub(in crate::image) type ExrParts = ExrImage<exr::prelude::SmallVec<[ExrPart; 2]>>;
+pub(crate) type ExrParts = ExrImage<exr::prelude::SmallVec<[ExrPart; 2]>>;
 
 /// One part.
-pub(in crate::image) type ExrPart = Layer<AnyChannels<FlatSamples>>;
+pub(crate) type ExrPart = Layer<AnyChannels<FlatSamples>>;
 
 fn malformed(e: impl std::fmt::Display) -> ImageError {
     ImageError::Malformed { format: "OpenEXR", reason: e.to_string() }
 }
 
 /// Reads every part, after checking that the header promises no more than the file can hold.
-pub(in crate::image) fn read_parts(bytes: &[u8]) -> Result<ExrParts, ImageError> {
+pub(crate) fn read_parts(bytes: &[u8]) -> Result<ExrParts, ImageError> {
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(malformed)?;
     let mut pixel_bytes = 0;
     for header in &meta.headers {
@@ -45,7 +45,7 @@ pub(in crate::image) fn read_parts(bytes: &[u8]) -> Result<ExrParts, ImageError>
 }
 
 /// The colour space of the file's chromaticities, sRGB when it has none; `None` for those of no known space.
-pub(in crate::image) fn color_space(attributes: &ImageAttributes) -> Option<ColorSpaceKind> {
+pub(crate) fn color_space(attributes: &ImageAttributes) -> Option<ColorSpaceKind> {
     let Some(found) = attributes.chromaticities else { return Some(ColorSpaceKind::Srgb) };
     ColorSpaceKind::ALL.into_iter().find(|kind| {
         let close = |a: exr::math::Vec2<f32>, b: Chromaticity| (a.0 - b.x).abs() + (a.1 - b.y).abs() < 2e-3;

@@ -56,7 +56,7 @@ fn number<T: std::str::FromStr>(rest: &mut &[u8], what: &str) -> Result<T, Image
 }
 
 /// Writes interleaved RGB rows, top row first in `rgb`, as little-endian PFM.
-pub(in crate::image) fn encode(out: &mut impl Write, width: u32, rgb: &[f32]) -> std::io::Result<()> {
+pub(crate) fn encode(out: &mut impl Write, width: u32, rgb: &[f32]) -> std::io::Result<()> {
     let row = width as usize * 3;
     write!(out, "PF\n{width} {}\n-1\n", rgb.len() / row.max(1))?;
     for line in rgb.chunks_exact(row).rev() {
