@@ -1,7 +1,9 @@
 //! Developer chores of Steradian: `cargo xtask <command>`.
 
+mod bench_mitsuba;
 mod imports;
 mod layers;
+mod references;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -10,6 +12,10 @@ const USAGE: &str = "usage: cargo xtask <command>
 
   layers    fail on an import that points the wrong way, on files that import each other,
             on a scattering or light variant named where it must not be, and on files over 800 lines
+  references [--scenes DIR] [--python EXE] [--only NAME]
+            render the scenes of the collection that have reference pictures and compare them
+  bench-mitsuba [--python EXE]
+            samples per second against Mitsuba 3 on its Cornell box; run with --release
 ";
 
 fn main() -> ExitCode {
@@ -17,6 +23,8 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let outcome = match arguments.first().map(String::as_str) {
         Some("layers") => layers::check(&root.join("crates/steradian/src")),
+        Some("references") => references::run(&root, &arguments[1..]),
+        Some("bench-mitsuba") => bench_mitsuba::run(&root, &arguments[1..]),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

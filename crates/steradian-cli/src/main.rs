@@ -1,2 +1,48 @@
-//! The `steradian` command.
-fn main() {}
+//! The `steradian` command: renders, inspects, checks and compares.
+
+mod args;
+mod compare;
+mod inspect;
+mod load;
+mod output;
+mod progress;
+mod render;
+
+use args::{Cli, Command};
+use clap::Parser as _;
+use std::process::ExitCode;
+
+/// Why a command did not succeed.
+enum Failure {
+    /// The message has been shown already.
+    Reported,
+    /// Stopped by the user; what was done so far is saved.
+    Interrupted,
+    /// To be shown.
+    Message(String),
+}
+
+impl From<String> for Failure {
+    fn from(message: String) -> Self {
+        Self::Message(message)
+    }
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Info(arguments) => inspect::info(&arguments),
+        Command::Check(arguments) => inspect::check(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Reported) => ExitCode::FAILURE,
+        // The shells' convention for a program ended by SIGINT.
+        Err(Failure::Interrupted) => ExitCode::from(130),
+        Err(Failure::Message(message)) => {
+            output::note(&format!("error: {message}"));
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -147,6 +147,37 @@ impl Light {
         }
     }
 
+    /// Name of the kind in scene files.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Point(_) => "point",
+            Self::Spot(_) => "spot",
+            Self::Distant(_) => "distant",
+            Self::Goniometric(_) => "goniometric",
+            Self::Projection(_) => "projection",
+            Self::UniformInfinite(_) | Self::ImageInfinite(_) => "infinite",
+            Self::DiffuseArea(_) => "diffuse area",
+        }
+    }
+
+    /// Whether the light's power grows with an area of the scene, that is with the square of the scene's unit of length.
+    pub fn scales_with_area(&self) -> bool {
+        match self {
+            Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => true,
+            Self::Point(_) | Self::Spot(_) | Self::Goniometric(_) | Self::Projection(_) => false,
+        }
+    }
+
+    /// Whether the light comes from single directions, so that no scattered ray can run into it.
+    pub fn is_delta(&self) -> bool {
+        match self {
+            Self::Point(_) | Self::Spot(_) | Self::Distant(_) | Self::Goniometric(_) | Self::Projection(_) => {
+                true
+            }
+            Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => false,
+        }
+    }
+
     /// Whether the light has no place in the scene.
     pub fn is_infinite(&self) -> bool {
         matches!(self, Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_))

@@ -169,6 +169,11 @@ impl Materials {
         &self.entries[id.0 as usize].material
     }
 
+    /// Whether light passes the material straight, wherever it meets it.
+    pub fn is_interface(&self, id: MaterialId) -> bool {
+        matches!(self.get(id), Material::Interface)
+    }
+
     /// The scattering function of material `id` at `point`, seen from `wo`; `None` for a mere boundary of media,
     /// which light passes straight.
     ///

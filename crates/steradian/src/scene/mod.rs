@@ -20,3 +20,16 @@ pub use desc::SceneDesc;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, nearest};
 pub use files::{Disk, FileBytes, FileSystem, MemoryFiles};
 pub use source::{FileId, Location, SourceMap, Span};
+
+pub mod compile;
+pub mod compiled;
+pub mod job;
+pub mod overrides;
+
+pub use compile::compile;
+pub use compiled::{Scene, SceneHit, SceneLightSample, ShapeAttributes};
+pub use job::{Jitter, PathSettings, RenderJob, Sampling};
+pub use overrides::{OverrideError, Overrides};
+
+/// The Cornell box with its measured reflectances and emission, as pbrt-v4 text.
+pub const CORNELL_BOX: &str = include_str!("../../data/cornell-box.pbrt");

@@ -1,5 +1,6 @@
 //! Source files and places in them.
 
+use crate::math::hash;
 use super::files::FileBytes;
 use std::sync::Arc;
 
@@ -84,6 +85,19 @@ impl SourceMap {
     /// The file of that id; `None` for an id of another map.
     pub fn file(&self, id: FileId) -> Option<&SourceFile> {
         self.files.get(id.0 as usize)
+    }
+
+    /// Hash of the contents of all files, in the order in which they were read.
+    pub fn content_hash(&self) -> u64 {
+        let word = |chunk: &[u8]| {
+            let mut bytes = [0; 8];
+            bytes[..chunk.len()].copy_from_slice(chunk);
+            u64::from_le_bytes(bytes)
+        };
+        self.files.iter().fold(0, |hash, file| {
+            let hash = hash::combine(hash, file.bytes.len() as u64);
+            file.bytes.chunks(8).fold(hash, |h, chunk| hash::combine(h, word(chunk)))
+        })
     }
 
     /// A span at the very start of the file, for errors about the file as a whole.

@@ -94,6 +94,17 @@ impl Shape {
         }
     }
 
+    /// Bytes held on the heap.
+    pub fn heap_bytes(&self) -> usize {
+        match self {
+            Self::Mesh(s) => s.heap_bytes(),
+            Self::Bilinear(s) => s.heap_bytes(),
+            Self::Sphere(_) => size_of::<Sphere>(),
+            Self::Disk(_) => size_of::<Disk>(),
+            Self::Cylinder(_) => size_of::<Cylinder>(),
+        }
+    }
+
     /// Number of primitives.
     pub fn prim_count(&self) -> u32 {
         match self {

@@ -70,6 +70,8 @@ pub struct SceneDesc {
     pub objects: Vec<ObjectDesc>,
     /// Placements of objects.
     pub instances: Vec<InstanceDesc>,
+    /// Hash of the text that this was read from.
+    pub content_hash: u64,
 }
 
 impl SceneDesc {

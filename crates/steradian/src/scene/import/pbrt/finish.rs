@@ -60,6 +60,7 @@ pub(super) fn finish(mut importer: Importer<'_>) -> Imported {
             shapes: importer.shapes,
             objects: ctx.objects.into_values()?,
             instances: importer.instances,
+            content_hash: sources.content_hash(),
         })
     };
     let scene = if diagnostics.has_errors() { None } else { complete() };

@@ -1,0 +1,150 @@
+//! What the user typed, validated as far as a single argument allows.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A spectral, physically based renderer.
+#[derive(Debug, Parser)]
+#[command(name = "steradian", version, about, max_term_width = 100, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to an image; without a scene, the built-in Cornell box
+    Render(Render),
+    /// Describe a scene: counts, bounds, memory, lights with their power, what is unsupported
+    Info(Inspect),
+    /// Report every problem of a scene; the exit code says whether there was an error
+    Check(Inspect),
+    /// Compare two images: mean ratio, MSE, relMSE, FLIP, SSIM, and a map of the error
+    Compare(Compare),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Inspect {
+    /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Render {
+    /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Image to write: .exr, .png or .pfm; may be repeated [default: the scene's film filename]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// Samples per pixel, instead of the scene's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) spp: Option<u32>,
+    /// Image size in pixels, instead of the scene's
+    #[arg(long, value_name = "WxH", value_parser = parse_resolution)]
+    pub(crate) resolution: Option<[u32; 2]>,
+    /// Part of the image to render, as fractions of its width and height
+    #[arg(long, value_name = "X0,X1,Y0,Y1", value_parser = parse_crop, allow_hyphen_values = true)]
+    pub(crate) crop: Option<[f32; 4]>,
+    /// Seed of the random numbers; the same seed gives the same image
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub(crate) seed: Option<i32>,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) threads: Option<u32>,
+    /// Integrator, instead of the scene's
+    #[arg(long, value_name = "NAME")]
+    pub(crate) integrator: Option<String>,
+    /// Longest path in bounces, instead of the scene's
+    #[arg(long, value_name = "N")]
+    pub(crate) max_depth: Option<u32>,
+    /// Stop after the pass in which this time has passed, for example 90s, 5m or 1h
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub(crate) time: Option<Duration>,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+    /// Print counts and timings at the end
+    #[arg(long)]
+    pub(crate) stats: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Compare {
+    /// Image under test (EXR)
+    pub(crate) image: PathBuf,
+    /// Reference image (EXR) of the same size
+    pub(crate) reference: PathBuf,
+    /// Write a map of the error, blue (none) to red: .png or .exr
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn parse_resolution(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text
+        .split_once(['x', 'X'])
+        .and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
+    match parsed {
+        Some([w, h]) if (1..=65_536).contains(&w) && (1..=65_536).contains(&h) => Ok([w, h]),
+        Some(_) => Err("width and height must lie between 1 and 65536".to_owned()),
+        None => Err("expected a width and a height, such as 1280x720".to_owned()),
+    }
+}
+
+fn parse_crop(text: &str) -> Result<[f32; 4], String> {
+    let numbers: Vec<f32> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+    match <[f32; 4]>::try_from(numbers) {
+        Ok([x0, x1, y0, y1])
+            if 0.0 <= x0 && x0 < x1 && x1 <= 1.0 && 0.0 <= y0 && y0 < y1 && y1 <= 1.0 =>
+        {
+            Ok([x0, x1, y0, y1])
+        }
+        _ => Err("expected X0,X1,Y0,Y1 with 0 <= X0 < X1 <= 1 and 0 <= Y0 < Y1 <= 1".to_owned()),
+    }
+}
+
+fn parse_duration(text: &str) -> Result<Duration, String> {
+    let text = text.trim();
+    let (number, factor) = match text.strip_suffix(['s', 'm', 'h']) {
+        Some(number) if text.ends_with('m') => (number, 60.0),
+        Some(number) if text.ends_with('h') => (number, 3600.0),
+        Some(number) => (number, 1.0),
+        None => (text, 1.0),
+    };
+    number
+        .trim()
+        .parse::<f64>()
+        .ok()
+        .filter(|n| *n > 0.0)
+        .and_then(|n| Duration::try_from_secs_f64(n * factor).ok())
+        .ok_or_else(|| "expected a time such as 60s, 5m or 1h".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_are_consistent() {
+        use clap::CommandFactory as _;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn resolutions_crops_and_times_are_checked() {
+        assert_eq!(parse_resolution("640x480"), Ok([640, 480]));
+        assert!(parse_resolution("0x480").is_err() && parse_resolution("640").is_err());
+        assert!(parse_resolution("-1x4").is_err() && parse_resolution("99999999999x4").is_err());
+        assert_eq!(parse_crop("0,0.5,0.25,1"), Ok([0.0, 0.5, 0.25, 1.0]));
+        assert!(parse_crop("0.5,0.5,0,1").is_err() && parse_crop("0,1,0").is_err());
+        assert!(parse_crop("nan,1,0,1").is_err());
+        assert_eq!(parse_duration("90s"), Ok(Duration::from_secs(90)));
+        assert_eq!(parse_duration("1.5m"), Ok(Duration::from_secs(90)));
+        assert!(parse_duration("0").is_err() && parse_duration("soon").is_err() && parse_duration("1e300h").is_err());
+    }
+}

@@ -1,0 +1,65 @@
+//! What the program says, and the files that it writes.
+
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+use steradian::image::{Frame, FrameFormat, write_frame};
+
+/// One line (or several) on standard error. A closed stream is nobody's loss.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Text on standard output, for results; the error is that of a closed pipe, which ends the program quietly.
+pub(crate) fn print(text: &str) -> Result<(), String> {
+    match writeln!(std::io::stdout(), "{text}") {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("cannot write: {e}")),
+        _ => Ok(()),
+    }
+}
+
+/// A file to be written, known to be writable before the long work begins.
+#[derive(Debug)]
+pub(crate) struct Target {
+    path: PathBuf,
+    format: FrameFormat,
+}
+
+impl Target {
+    /// Checks the extension and that the folder exists.
+    pub(crate) fn new(path: &Path) -> Result<Self, String> {
+        let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
+        let format = FrameFormat::from_extension(&extension).map_err(|e| format!("{}: {e}", path.display()))?;
+        let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !folder.is_dir() {
+            return Err(format!("{}: the folder {} does not exist", path.display(), folder.display()));
+        }
+        if path.is_dir() {
+            return Err(format!("{} is a folder", path.display()));
+        }
+        Ok(Self { path: path.to_owned(), format })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes beside the target and renames, so that an older picture is never lost to a failed write.
+    pub(crate) fn write(&self, frame: &Frame) -> Result<(), String> {
+        let mut name = self.path.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".{}.part", std::process::id()));
+        let partial = self.path.with_file_name(name);
+        let failed = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", self.path.display());
+        let written = (|| {
+            let mut file = BufWriter::new(File::create(&partial).map_err(|e| failed(&e))?);
+            write_frame(frame, &mut file, self.format).map_err(|e| failed(&e))?;
+            file.flush().map_err(|e| failed(&e))?;
+            std::fs::rename(&partial, &self.path).map_err(|e| failed(&e))
+        })();
+        if written.is_err() {
+            // The partial file is of no use; if it cannot be removed either, the first error says why.
+            let _ = std::fs::remove_file(&partial);
+        }
+        written
+    }
+}

@@ -1,0 +1,184 @@
+//! Path tracing: the Neumann series of the directional rendering equation, B (2.26), B (2.28),
+//! with next-event estimation, multiple importance sampling and Russian roulette.
+
+use super::contract::{FirstSurface, Integrator, Tally, VisibleSurface};
+use super::mis::power_heuristic;
+use crate::bsdf::{Lobe, Mode, Side};
+use crate::material::SurfaceBsdf;
+use crate::math::{Dir, Ray, SurfacePoint, Vec2};
+use crate::sampler::Sampler;
+use crate::scene::Scene;
+use crate::shape::ReferencePoint;
+use crate::spectrum::{Sampled, Wavelengths};
+use crate::units::{Density, PdfSolidAngle, Radiance, Unitless};
+
+/// The path tracer.
+#[derive(Clone, Copy, Debug)]
+pub struct PathTracer {
+    /// Most bounces of a path; 0 shows only what emits.
+    pub max_depth: u32,
+    /// Widens narrow lobes after the first wide one. Biased, off by default.
+    pub regularize: bool,
+}
+
+/// How the current ray was chosen, which decides the weight of light that it runs into.
+enum Arrival {
+    /// By the camera or by a discrete lobe: no light sample could have found it.
+    Only,
+    /// By a continuous lobe at a surface where lights were sampled as well.
+    Scattered { from: ReferencePoint, density: PdfSolidAngle },
+}
+
+impl Arrival {
+    /// Weight of emission found along `wi`, given the density with which light sampling finds it.
+    fn weight(&self, light_density: impl FnOnce(&ReferencePoint) -> PdfSolidAngle) -> f32 {
+        match self {
+            Self::Only => 1.0,
+            Self::Scattered { from, density } => power_heuristic(*density, light_density(from)),
+        }
+    }
+}
+
+impl Integrator for PathTracer {
+    fn radiance(
+        &self,
+        scene: &Scene,
+        mut ray: Ray,
+        w: &mut Wavelengths,
+        sampler: &mut Sampler,
+        tally: &mut Tally,
+        mut first: Option<&mut FirstSurface>,
+    ) -> Sampled<Radiance> {
+        let mut radiance = Sampled::ZERO;
+        let mut throughput = Sampled::<Unitless>::ONE;
+        let mut arrival = Arrival::Only;
+        // Product of (ηt/ηi)² over refractions: roulette compares power, not radiance.
+        let mut eta_scale = 1.0_f32;
+        let mut widened = false;
+        let mut depth = 0;
+        tally.paths += 1;
+        loop {
+            tally.closest_rays += 1;
+            let Some(direction) = Dir::new(ray.d) else { break };
+            let Some(hit) = scene.intersect(&ray, f32::INFINITY) else {
+                for light in scene.infinite_lights() {
+                    let escaped = scene.escaped(light, direction, w);
+                    if !escaped.is_zero() {
+                        let weight =
+                            arrival.weight(|_| scene.escape_density(light, direction));
+                        radiance += throughput * escaped * weight;
+                    }
+                }
+                break;
+            };
+            let wo = -direction;
+            tally.vertices += 1;
+            if let Some(emitter) = hit.emitter {
+                let emitted = scene.emitted(emitter, &hit.point, wo, w);
+                if !emitted.is_zero() {
+                    let weight =
+                        arrival.weight(|from| scene.emitter_density(emitter, from, direction, &hit.point));
+                    radiance += throughput * emitted * weight;
+                }
+            }
+            let Some(mut bsdf) = scene.shade(&hit, wo, w, sampler.hash_seed()) else {
+                // No optical interface: the path goes straight on and does not count a bounce.
+                ray = hit.point.p.spawn(hit.point.ng, direction, ray.time);
+                continue;
+            };
+            if let Some(first) = first.take() {
+                first.surface =
+                    Some(VisibleSurface { point: hit.point, seen_from: ray.o, albedo: albedo(&bsdf, wo) });
+            }
+            if self.regularize && widened {
+                bsdf.regularize();
+            }
+            if depth >= self.max_depth {
+                break;
+            }
+            depth += 1;
+            let from = reference(&hit.point, &bsdf);
+            if bsdf.lobes().is_continuous() {
+                let direct = sample_direct(scene, &from, &bsdf, wo, w, sampler, tally);
+                radiance += throughput * direct;
+            }
+            let Some(scattered) = bsdf.sample(wo, sampler.next_1d(), sampler.next_2d(), Mode::Radiance) else {
+                break;
+            };
+            throughput *= scattered.weight;
+            widened |= scattered.lobe != Lobe::Specular;
+            if scattered.side == Side::Transmission {
+                eta_scale *= scattered.eta * scattered.eta;
+            }
+            arrival = match scattered.density {
+                Density::Delta => Arrival::Only,
+                Density::SolidAngle(density) => Arrival::Scattered { from, density },
+            };
+            ray = hit.point.p.spawn(hit.point.ng, scattered.wi, ray.time);
+            // Survival in proportion to what the path still carries; exact in expectation (Arvo & Kirk 1990).
+            let carried = (throughput * eta_scale).max();
+            if !(carried > 0.0) {
+                break;
+            }
+            if carried < 1.0 && depth > 1 {
+                if sampler.next_1d() >= carried {
+                    tally.roulette_ends += 1;
+                    break;
+                }
+                throughput = throughput / carried;
+            }
+        }
+        radiance
+    }
+}
+
+fn reference(point: &SurfacePoint, bsdf: &SurfaceBsdf) -> ReferencePoint {
+    ReferencePoint { p: point.p, ng: Some(point.ng), ns: Some(bsdf.n()), time: point.time }
+}
+
+/// One light sample, A (31): radiance that reaches the point from a light and is scattered towards `wo`.
+fn sample_direct(
+    scene: &Scene,
+    from: &ReferencePoint,
+    bsdf: &SurfaceBsdf,
+    wo: Dir,
+    w: &Wavelengths,
+    sampler: &mut Sampler,
+    tally: &mut Tally,
+) -> Sampled<Radiance> {
+    let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+    let Some(light) = scene.sample_light(from, u_light, u, w) else { return Sampled::ZERO };
+    let f = bsdf.eval(wo, light.wi, Mode::Radiance);
+    if f.is_zero() || light.radiance.is_zero() {
+        return Sampled::ZERO;
+    }
+    tally.shadow_rays += 1;
+    if scene.is_occluded(from, &light.target, light.wi) {
+        return Sampled::ZERO;
+    }
+    let cos = bsdf.n().dot(*light.wi).abs();
+    match light.density {
+        // The chance of having picked this light is already divided out of a delta light's sample.
+        Density::Delta => f.reflect(light.radiance, cos, PdfSolidAngle(1.0)),
+        Density::SolidAngle(density) => {
+            let other = bsdf.pdf(wo, light.wi, Mode::Radiance);
+            f.reflect(light.radiance, cos, density) * power_heuristic(density, other)
+        }
+    }
+}
+
+/// Directional-hemispherical reflectance, B (2.14), from a fixed set of samples (fixed, so that a layer of it has no noise
+/// beyond that of its camera rays).
+fn albedo(bsdf: &SurfaceBsdf, wo: Dir) -> Sampled<Unitless> {
+    const N: u32 = 16;
+    let mut sum = Sampled::ZERO;
+    for i in 0..N {
+        // The R2 sequence (Roberts 2018): low-discrepancy without tables.
+        let u = Vec2::new(0.754_877_7, 0.569_840_3) * (i as f32 + 0.5);
+        let uc = (i as f32 + 0.5) / N as f32;
+        if let Some(s) = bsdf.sample(wo, uc, u.fract(), Mode::Radiance) {
+            sum += s.weight;
+        }
+    }
+    sum / N as f32
+}

@@ -1,0 +1,90 @@
+//! From a job's settings to a film, and from a film to a picture with its metadata.
+
+use crate::film::{
+    Film, FilmError, FilmKind, Filter, FilterError, FilterKind, PixelBounds, Sensor, SensorError,
+    SensorSettings, SpectralBins,
+};
+use crate::image::ImageError;
+use crate::math::Vec2;
+use crate::scene::{RenderJob, desc};
+use crate::units::Kelvin;
+
+/// Why a job cannot be rendered.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The film.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// The pixel filter.
+    #[error(transparent)]
+    Filter(#[from] FilterError),
+    /// The sensor.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
+    /// The picture could not be put together.
+    #[error(transparent)]
+    Frame(#[from] ImageError),
+}
+
+/// The film that a job asks for.
+pub(super) fn film(job: &RenderJob) -> Result<Film, RenderError> {
+    let d = &job.film;
+    let space = job.output_space.clone();
+    let settings = SensorSettings {
+        imaging_ratio: SensorSettings::exposure(job.scene.camera().shutter(), d.sensor.iso),
+        white_balance: d.sensor.white_balance.map(Kelvin),
+        max_component: d.max_component_value,
+    };
+    let sensor = Sensor::new(settings, &space)?;
+    let kind = match job.filter.kind {
+        desc::FilterKind::Box => FilterKind::Box,
+        desc::FilterKind::Triangle => FilterKind::Triangle,
+        desc::FilterKind::Gaussian { sigma } => FilterKind::Gaussian { sigma },
+        desc::FilterKind::Mitchell { b, c } => FilterKind::Mitchell { b, c },
+        desc::FilterKind::Sinc { tau } => FilterKind::Sinc { tau },
+    };
+    let filter = Filter::new(kind, Vec2::from_array(job.filter.radius))?;
+    let kind = match d.kind {
+        desc::FilmKind::Rgb => FilmKind::Rgb,
+        desc::FilmKind::GBuffer { .. } => FilmKind::GBuffer,
+        desc::FilmKind::Spectral { n_buckets, lambda_min, lambda_max } => {
+            FilmKind::Spectral(SpectralBins { count: n_buckets, min: lambda_min, max: lambda_max })
+        }
+    };
+    Ok(Film::new(d.resolution, bounds(d), filter, sensor, kind, space)?)
+}
+
+fn bounds(film: &desc::FilmDesc) -> PixelBounds {
+    let mut bounds = PixelBounds::full(film.resolution);
+    if let Some(crop) = film.crop_window {
+        bounds = bounds.intersect(&PixelBounds::from_crop(film.resolution, crop));
+    }
+    if let Some(b) = film.pixel_bounds {
+        let [x0, x1, y0, y1] = b.map(|v| i32::try_from(v).unwrap_or(i32::MAX));
+        bounds = bounds.intersect(&PixelBounds { min: [x0, y0], max: [x1, y1] });
+    }
+    bounds
+}
+
+/// Settings of a job that belong into the picture's metadata, as names and values.
+pub(super) fn metadata(job: &RenderJob, spp: u32) -> Vec<(&'static str, String)> {
+    let mut list = vec![
+        ("software", format!("Steradian {}", env!("CARGO_PKG_VERSION"))),
+        ("renderer.integrator", "path".to_owned()),
+        ("renderer.maxDepth", job.path.max_depth.to_string()),
+        ("renderer.samplesPerPixel", spp.to_string()),
+        ("renderer.sampler", format!("{:?}", job.sampling.kind)),
+        ("renderer.filter", format!("{:?} radius {:?}", job.filter.kind, job.filter.radius)),
+        ("renderer.seed", job.sampling.seed.to_string()),
+        ("renderer.wavelengthsPerPath", crate::spectrum::LANES.to_string()),
+        ("renderer.instructionSet", format!("{:?}", job.scene.accel().instructions())),
+        ("scene.hash", format!("{:016x}", job.scene_hash)),
+        ("scene.metersPerUnit", job.meters_per_unit.to_string()),
+        ("units.RGB", "cd.m^-2 at exposure 1 s and ISO 100, linear".to_owned()),
+    ];
+    if job.path.regularize {
+        list.push(("bias.regularize", "true".to_owned()));
+    }
+    list
+}

@@ -1,0 +1,117 @@
+//! From the statement of one shape to geometry in render space.
+
+use crate::math::Transform;
+use crate::scene::desc::{FileRef, MeshDesc, ShapeKind};
+use crate::scene::diagnostic::Diagnostics;
+use crate::scene::files::FileSystem;
+use crate::scene::source::Span;
+use crate::scene::import::ply;
+use crate::shape::{
+    BilinearMesh, Cylinder, Disk, MeshData, Orientation, PatchData, Shape, ShapeError, Sphere, TriangleMesh,
+};
+
+/// The shapes that one statement makes; none when it is faulty, which is reported.
+pub(super) fn build(
+    kind: ShapeKind,
+    orientation: Orientation,
+    render_from_object: &Transform,
+    files: &dyn FileSystem,
+    span: Span,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Shape> {
+    let t = render_from_object;
+    let built = match kind {
+        ShapeKind::PlyMesh { file } => ply(&file, t, orientation, files),
+        ShapeKind::TriangleMesh(mesh) => {
+            TriangleMesh::new(triangles(mesh), t, orientation).map(|m| vec![Shape::Mesh(m)]).map_err(text)
+        }
+        ShapeKind::BilinearMesh { mesh, emission: _ } => {
+            BilinearMesh::new(patches(mesh), t, orientation).map(|m| vec![Shape::Bilinear(m)]).map_err(text)
+        }
+        ShapeKind::Sphere { radius, z_min, z_max, phi_max } => {
+            Sphere::new(radius, z_min, z_max, phi_max, t, orientation)
+                .map(|s| vec![Shape::Sphere(Box::new(s))])
+                .map_err(text)
+        }
+        ShapeKind::Disk { height, radius, inner_radius, phi_max } => {
+            Disk::new(height, radius, inner_radius, phi_max, t, orientation)
+                .map(|s| vec![Shape::Disk(Box::new(s))])
+                .map_err(text)
+        }
+        ShapeKind::Cylinder { radius, z_min, z_max, phi_max } => {
+            Cylinder::new(radius, z_min, z_max, phi_max, t, orientation)
+                .map(|s| vec![Shape::Cylinder(Box::new(s))])
+                .map_err(text)
+        }
+        ShapeKind::Curve(_) | ShapeKind::LoopSubdivision { .. } => Err("unsupported shape".to_owned()),
+    };
+    built.unwrap_or_else(|message| {
+        diagnostics.error(span, message);
+        Vec::new()
+    })
+}
+
+/// Index triples of a mesh; the importer has checked that their number is a multiple of three.
+fn triangles(mesh: MeshDesc) -> MeshData {
+    MeshData {
+        indices: mesh.indices.as_chunks::<3>().0.to_vec(),
+        positions: mesh.p,
+        normals: mesh.n,
+        tangents: mesh.s,
+        uvs: mesh.uv,
+        face_indices: face_numbers(mesh.face_indices),
+    }
+}
+
+fn patches(mesh: MeshDesc) -> PatchData {
+    PatchData {
+        indices: mesh.indices.as_chunks::<4>().0.to_vec(),
+        positions: mesh.p,
+        normals: mesh.n,
+        uvs: mesh.uv,
+        face_indices: face_numbers(mesh.face_indices),
+    }
+}
+
+/// Triangles and patches of a PLY file; each keeps its own copy of the vertices that it needs.
+fn ply(
+    file: &FileRef,
+    t: &Transform,
+    orientation: Orientation,
+    files: &dyn FileSystem,
+) -> Result<Vec<Shape>, String> {
+    let failed = |e: &dyn std::fmt::Display| format!("cannot read mesh {}: {e}", file.path.display());
+    let bytes = files.read(&file.path).map_err(|e| failed(&e))?;
+    let mesh = ply::parse(&bytes).map_err(|e| failed(&e))?;
+    let mut shapes = Vec::new();
+    if !mesh.quads.is_empty() {
+        let data = PatchData {
+            indices: mesh.quads,
+            positions: mesh.positions.clone(),
+            normals: mesh.normals.clone(),
+            uvs: mesh.uvs.clone(),
+            face_indices: mesh.quad_numbers,
+        };
+        shapes.push(Shape::Bilinear(BilinearMesh::new(data, t, orientation).map_err(|e| failed(&e))?));
+    }
+    if !mesh.triangles.is_empty() {
+        let data = MeshData {
+            indices: mesh.triangles,
+            positions: mesh.positions,
+            normals: mesh.normals,
+            tangents: Vec::new(),
+            uvs: mesh.uvs,
+            face_indices: mesh.triangle_numbers,
+        };
+        shapes.push(Shape::Mesh(TriangleMesh::new(data, t, orientation).map_err(|e| failed(&e))?));
+    }
+    Ok(shapes)
+}
+
+fn face_numbers(numbers: Vec<i32>) -> Vec<u32> {
+    numbers.into_iter().map(i32::cast_unsigned).collect()
+}
+
+fn text(e: ShapeError) -> String {
+    e.to_string()
+}

@@ -1,0 +1,156 @@
+//! From light statements to lights.
+
+use super::pictures;
+use super::shapes::EmittingShape;
+use super::spectra::Meaning;
+use super::textures::TextureCompiler;
+use super::view::rebase;
+use crate::color::{ColorSpaceKind, UpsamplingTable};
+use crate::image::Image;
+use crate::light::{
+    Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight,
+    ImageInfiniteLight, Light, LightError, PointLight, ProjectionLight, Sides, SpotLight, Stated,
+    UniformInfiniteLight, latlong_to_octahedral,
+};
+use crate::math::Transform;
+use crate::scene::desc::{
+    self, AreaLightDesc, FileRef, LightDesc, LightKind, Normalization, SceneDesc, SpectrumDesc,
+};
+use crate::scene::diagnostic::Diagnostic;
+use crate::scene::files::FileSystem;
+use crate::shape::Shape;
+use crate::spectrum::Spectrum;
+use std::sync::Arc;
+
+/// Compiles lights; pictures of light share one upsampling table.
+pub(super) struct LightCompiler<'a, 'b> {
+    pub(super) files: &'a dyn FileSystem,
+    pub(super) textures: &'b mut TextureCompiler<'a>,
+    pub(super) render_from_world: Transform,
+    pub(super) table: Option<Arc<UpsamplingTable>>,
+}
+
+impl LightCompiler<'_, '_> {
+    /// The light of an emitting shape; `None` when it is faulty, which is reported.
+    pub(super) fn area(
+        &mut self,
+        scene: &SceneDesc,
+        emitting: &EmittingShape,
+        shape: &Shape,
+    ) -> Option<Light> {
+        let desc: &AreaLightDesc = scene.area_lights.get(emitting.light.index())?;
+        let stated = stated(desc.scale, desc.normalization, desc.power);
+        let picture = match (&emitting.picture, &desc.radiance) {
+            (Some(file), _) | (None, desc::AreaRadiance::Image(file)) => Some(file),
+            (None, desc::AreaRadiance::Uniform(_)) => None,
+        };
+        let radiance = match (picture, &desc.radiance) {
+            (Some(file), _) => AreaRadiance::Picture(Box::new(self.emission_picture(file)?)),
+            (None, desc::AreaRadiance::Uniform(s)) => AreaRadiance::Uniform(self.spectrum(s)),
+            (None, desc::AreaRadiance::Image(_)) => return None,
+        };
+        let sides = if desc.two_sided { Sides::Both } else { Sides::Front };
+        let light = DiffuseAreaLight::new(emitting.shape, shape, radiance, sides, &stated);
+        self.report(light.map(Light::DiffuseArea), desc.span)
+    }
+
+    /// A light that is not a surface; `None` when it is faulty, which is reported.
+    pub(super) fn light(&mut self, desc: &LightDesc) -> Option<Light> {
+        let placement = rebase(&self.render_from_world, &desc.world_from_light);
+        if placement.is_animated() {
+            self.textures
+                .diagnostics
+                .warning(desc.span, "lights do not move: this one stays where the shutter opens");
+        }
+        let t = *placement.start();
+        let stated = |total| stated(desc.scale, desc.normalization, total);
+        let light = match &desc.kind {
+            LightKind::Point { intensity, from, power } => {
+                PointLight::new(t, *from, self.spectrum(intensity), &stated(*power)).map(Light::Point)
+            }
+            LightKind::Spot { intensity, from, to, cone_angle, cone_delta_angle, power } => {
+                let intensity = self.spectrum(intensity);
+                SpotLight::new(t, *from, *to, *cone_angle, *cone_delta_angle, intensity, &stated(*power))
+                    .map(Light::Spot)
+            }
+            LightKind::Goniometric { intensity, file, power } => {
+                let picture = self.square_picture(file)?;
+                let intensity = self.spectrum(intensity);
+                GoniometricLight::new(t, picture, intensity, &stated(*power))
+                    .map(|l| Light::Goniometric(Box::new(l)))
+            }
+            LightKind::Projection { file, fov, power } => {
+                let slide = self.emission_picture(file)?;
+                ProjectionLight::new(t, *fov, slide, &stated(*power)).map(|l| Light::Projection(Box::new(l)))
+            }
+            LightKind::Distant { irradiance, from, to, illuminance } => {
+                let irradiance = self.spectrum(irradiance);
+                DistantLight::new(t, *from, *to, irradiance, &stated(*illuminance)).map(Light::Distant)
+            }
+            LightKind::UniformInfinite { radiance, illuminance } => {
+                let radiance = self.spectrum(radiance);
+                UniformInfiniteLight::new(radiance, &stated(*illuminance)).map(Light::UniformInfinite)
+            }
+            LightKind::ImageInfinite { file, illuminance } => {
+                let map = self.square_picture(file)?;
+                let picture = self.emission(map);
+                ImageInfiniteLight::new(t, picture, &stated(*illuminance))
+                    .map(|l| Light::ImageInfinite(Box::new(l)))
+            }
+        };
+        self.report(light, desc.span)
+    }
+
+    fn report(
+        &mut self,
+        light: Result<Light, LightError>,
+        span: crate::scene::source::Span,
+    ) -> Option<Light> {
+        light.map_err(|e| self.textures.diagnostics.error(span, e.to_string())).ok()
+    }
+
+    fn spectrum(&mut self, desc: &SpectrumDesc) -> Spectrum {
+        self.textures.spectra.compile(desc, Meaning::Illuminant, self.textures.diagnostics)
+    }
+
+    fn emission_picture(&mut self, file: &FileRef) -> Option<EmissionPicture> {
+        let image = pictures::read(self.files, file, None, self.textures.diagnostics)?;
+        Some(self.emission(image))
+    }
+
+    /// RGB of picture files is sRGB.
+    fn emission(&mut self, image: Image) -> EmissionPicture {
+        let space = self.textures.spectra.space(ColorSpaceKind::Srgb);
+        let table = self.table.get_or_insert_with(|| Arc::new(UpsamplingTable::build(space)));
+        EmissionPicture::new(image, Arc::clone(table), space)
+    }
+
+    /// A picture of all directions. One of twice the width is taken for latitude and longitude, which pbrt-v4 refuses.
+    fn square_picture(&mut self, file: &FileRef) -> Option<Image> {
+        let image = pictures::read(self.files, file, None, self.textures.diagnostics)?;
+        if image.width() != 2 * image.height() {
+            return Some(image);
+        }
+        let notice = Diagnostic::notice(
+            file.span,
+            format!(
+                "{} is {} × {}: converted from latitude-longitude to the equal-area octahedral square",
+                file.path.display(),
+                image.width(),
+                image.height()
+            ),
+        );
+        self.textures.diagnostics.push(notice.with_help("+z is the top row, azimuth 0 (+x) the first column"));
+        latlong_to_octahedral(&image, image.height())
+            .map_err(|e| self.textures.diagnostics.error(file.span, e.to_string()))
+            .ok()
+    }
+}
+
+fn stated(scale: f32, normalization: Normalization, total: Option<f32>) -> Stated {
+    let amount = match normalization {
+        Normalization::Photometric => Amount::Photometric,
+        Normalization::Absolute => Amount::Absolute,
+    };
+    Stated { scale, amount, total }
+}

@@ -1,0 +1,136 @@
+//! From description to scene: the only stage that reads pictures, meshes and spectra and builds the hierarchy.
+//!
+//! All faults are collected; a scene comes out only when there is none.
+
+mod geometry;
+mod integrator;
+mod lights;
+mod materials;
+mod pictures;
+mod shapes;
+mod spectra;
+mod textures;
+mod view;
+
+use super::compiled::Scene;
+use super::desc::{MaterialKind, SceneDesc};
+use super::diagnostic::{Diagnostic, Diagnostics, Severity};
+use super::files::FileSystem;
+use super::job::{Jitter, RenderJob, Sampling};
+use crate::accel::Accel;
+use crate::color::ColorSpace;
+use crate::light::{Light, LightId, LightSampler};
+use integrator::CausticRisk;
+use lights::LightCompiler;
+use shapes::{Geometry, ShapeCompiler, ShapeSet};
+use textures::TextureCompiler;
+
+/// Compiles a description. `None` when there are errors, all of which are added to `diagnostics`.
+pub fn compile(
+    mut desc: SceneDesc,
+    files: &dyn FileSystem,
+    diagnostics: &mut Diagnostics,
+) -> Option<RenderJob> {
+    let geometry = Geometry::take(&mut desc);
+    let desc = &desc;
+    let render_from_world = view::render_from_world(&desc.camera, desc.options.rendering_space);
+    let camera = view::camera(&desc.camera, desc.film.resolution, &render_from_world)
+        .map_err(|e| diagnostics.error(desc.camera.span, e.to_string()))
+        .ok();
+    let kind = view::sampler_kind(&desc.sampler, diagnostics);
+
+    let mut textures = TextureCompiler::new(desc, files, render_from_world, diagnostics);
+    let materials = materials::compile(&desc.materials, files, &mut textures);
+    let mut set = ShapeCompiler {
+        files,
+        textures: &mut textures,
+        materials: &materials,
+        material_descs: &desc.materials,
+        render_from_world,
+        set: ShapeSet::default(),
+    }
+    .compile(geometry);
+
+    let mut lights: Vec<Light> = Vec::new();
+    let mut compiler = LightCompiler { files, textures: &mut textures, render_from_world, table: None };
+    for emitting in &set.emitters {
+        let index = emitting.shape.0 as usize;
+        if let Some(light) = compiler.area(desc, emitting, &set.shapes[index]) {
+            set.attributes[index].light = Some(LightId(lights.len() as u32));
+            lights.push(light);
+        }
+    }
+    lights.extend(desc.lights.iter().filter_map(|d| compiler.light(d)));
+
+    let TextureCompiler { textures, spectra: _, diagnostics, .. } = textures;
+    let risk = CausticRisk {
+        delta_lights: lights.iter().any(Light::is_delta),
+        specular_surfaces: desc.materials.iter().any(|m| scatters_discretely(&m.kind)),
+    };
+    let path = integrator::choose(&desc.integrator, risk, diagnostics);
+    let accel = Accel::build(&set.shapes, &set.layout)
+        .map_err(|e| push_unlocated(diagnostics, Severity::Error, e.to_string()))
+        .ok();
+    if lights.is_empty() {
+        push_unlocated(diagnostics, Severity::Warning, "the scene has no light: the picture will be black".into());
+    }
+    let (camera, accel) = (camera?, accel?);
+    if diagnostics.has_errors() {
+        return None;
+    }
+    let (_, radius) = accel.bounds().bounding_sphere();
+    let light_sampler = LightSampler::by_power(&lights, &set.shapes, radius);
+    let options = &desc.options;
+    let jitter = |off: bool| if off { Jitter::Off } else { Jitter::On };
+    Some(RenderJob {
+        scene: Scene {
+            shapes: set.shapes,
+            attributes: set.attributes,
+            accel,
+            textures,
+            materials: materials.materials,
+            lights,
+            light_sampler,
+            camera,
+            footprint_samples: (!options.disable_texture_filtering).then_some(desc.sampler.pixel_samples),
+        },
+        film: desc.film.clone(),
+        output_space: ColorSpace::new(desc.film.color_space),
+        filter: desc.filter,
+        sampling: Sampling {
+            kind,
+            spp: desc.sampler.pixel_samples,
+            seed: seed(desc),
+            pixel_jitter: jitter(options.disable_pixel_jitter),
+            wavelength_jitter: jitter(options.disable_wavelength_jitter),
+        },
+        path,
+        world_from_render: render_from_world.inverse(),
+        meters_per_unit: options.meters_per_unit,
+        scene_hash: desc.content_hash,
+    })
+}
+
+/// The sampler's own seed wins over that of the options.
+fn seed(desc: &SceneDesc) -> u64 {
+    u64::from(desc.sampler.seed.unwrap_or(desc.options.seed).cast_unsigned())
+}
+
+fn push_unlocated(diagnostics: &mut Diagnostics, severity: Severity, message: String) {
+    diagnostics.push(Diagnostic { severity, message, span: None, help: None, related: Vec::new() });
+}
+
+/// Whether a material may scatter into single directions, which no light sample can meet.
+fn scatters_discretely(kind: &MaterialKind) -> bool {
+    match kind {
+        MaterialKind::Conductor { .. } | MaterialKind::Dielectric { .. } | MaterialKind::ThinDielectric { .. } => {
+            true
+        }
+        MaterialKind::Diffuse { .. }
+        | MaterialKind::DiffuseTransmission { .. }
+        | MaterialKind::CoatedDiffuse { .. }
+        | MaterialKind::CoatedConductor { .. }
+        | MaterialKind::Mix { .. }
+        | MaterialKind::Interface => false,
+    }
+}

@@ -1,0 +1,112 @@
+//! From the ways to state a spectrum to functions of wavelength.
+
+use crate::color::{ColorSpace, ColorSpaceKind, Rgb};
+use crate::math::Vec3;
+use crate::scene::desc::{SpectrumDesc, SpectrumValue};
+use crate::scene::diagnostic::{Diagnostic, Diagnostics};
+use crate::scene::files::FileSystem;
+use crate::spectrum::blackbody::Blackbody;
+use crate::spectrum::named::{named, names};
+use crate::spectrum::tabulated::Tabulated;
+use crate::spectrum::{Spectrum, spd};
+use crate::units::Kelvin;
+
+/// What an RGB triple stands for, by the parameter that holds it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Meaning {
+    /// A reflectance or transmittance, in [0, 1].
+    Albedo,
+    /// A quantity without upper bound, such as an index of refraction.
+    Unbounded,
+    /// Light.
+    Illuminant,
+}
+
+/// Converts spectra; colour spaces are set up once, when the first colour in them is met.
+pub(super) struct SpectrumCompiler<'a> {
+    files: &'a dyn FileSystem,
+    spaces: [Option<ColorSpace>; 4],
+}
+
+impl<'a> SpectrumCompiler<'a> {
+    pub(super) fn new(files: &'a dyn FileSystem) -> Self {
+        Self { files, spaces: [const { None }; 4] }
+    }
+
+    pub(super) fn space(&mut self, kind: ColorSpaceKind) -> &ColorSpace {
+        let slot = match kind {
+            ColorSpaceKind::Srgb => 0,
+            ColorSpaceKind::DciP3 => 1,
+            ColorSpaceKind::Rec2020 => 2,
+            ColorSpaceKind::Aces2065_1 => 3,
+        };
+        self.spaces[slot].get_or_insert_with(|| ColorSpace::new(kind))
+    }
+
+    /// The spectrum that `desc` states; an error is reported and replaced by zero, so that all others are found, too.
+    pub(super) fn compile(
+        &mut self,
+        desc: &SpectrumDesc,
+        meaning: Meaning,
+        diagnostics: &mut Diagnostics,
+    ) -> Spectrum {
+        match self.try_compile(desc, meaning) {
+            Ok(spectrum) => spectrum,
+            Err(diagnostic) => {
+                diagnostics.push(*diagnostic);
+                Spectrum::Constant(0.0)
+            }
+        }
+    }
+
+    fn try_compile(&mut self, desc: &SpectrumDesc, meaning: Meaning) -> Result<Spectrum, Box<Diagnostic>> {
+        let error = |message: String| Box::new(Diagnostic::error(desc.span, message));
+        Ok(match &desc.value {
+            SpectrumValue::Constant(v) => Spectrum::Constant(*v),
+            SpectrumValue::Rgb { rgb, color_space } => {
+                let space = self.space(*color_space);
+                let rgb = Rgb(Vec3::from_array(*rgb));
+                match meaning {
+                    Meaning::Albedo => space.albedo(rgb).map_err(|e| error(e.to_string()))?,
+                    Meaning::Unbounded => space.unbounded(rgb),
+                    Meaning::Illuminant => space.illuminant_rgb(rgb),
+                }
+            }
+            SpectrumValue::Blackbody { kelvin } => Spectrum::Blackbody(Blackbody::normalized(Kelvin(*kelvin))),
+            SpectrumValue::Samples { lambda, values } => {
+                let pairs: Vec<_> = lambda.iter().copied().zip(values.iter().copied()).collect();
+                tabulated(Tabulated::new(&pairs).map_err(|e| error(e.to_string()))?)
+            }
+            SpectrumValue::Named(name) => named(name).map(dense).ok_or_else(|| {
+                let unknown = Diagnostic::error(desc.span, format!("unknown spectrum \"{name}\""));
+                Box::new(unknown.with_nearest(name, names()))
+            })?,
+            SpectrumValue::File(path) => {
+                let failed = |e: String| error(format!("cannot read spectrum file {}: {e}", path.display()));
+                let bytes = self.files.read(path).map_err(|e| failed(e.to_string()))?;
+                let text = std::str::from_utf8(&bytes).map_err(|e| failed(e.to_string()))?;
+                tabulated(spd::parse(text).map_err(|e| failed(e.to_string()))?)
+            }
+            SpectrumValue::Illuminant(kind) => self.space(*kind).illuminant().clone(),
+        })
+    }
+}
+
+/// Tables are resampled at 1 nm where that loses nothing that the film could see: within 360–830 nm a lookup then costs
+/// the same whatever the table's spacing. Tables that reach beyond are kept as they are.
+fn dense(spectrum: Spectrum) -> Spectrum {
+    match spectrum {
+        Spectrum::Tabulated(t) => tabulated(t),
+        other => other,
+    }
+}
+
+fn tabulated(table: Tabulated) -> Spectrum {
+    use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN};
+    let (min, max) = table.range();
+    let covers_film = min <= LAMBDA_MIN && max >= LAMBDA_MAX;
+    // Samples on whole nanometres are met exactly.
+    let on_grid = table.samples().all(|(lambda, _)| lambda.fract() == 0.0);
+    let spectrum = Spectrum::Tabulated(table);
+    if covers_film && on_grid { Spectrum::Dense(spectrum.densely_sampled()) } else { spectrum }
+}

@@ -1,0 +1,64 @@
+//! Everything that one render needs: the compiled scene and the settings around it.
+
+use super::compiled::Scene;
+use super::desc::{FilmDesc, FilterDesc};
+use crate::color::ColorSpace;
+use crate::math::Transform;
+use crate::sampler::SamplerKind;
+
+/// A compiled scene with its settings.
+#[derive(Debug)]
+pub struct RenderJob {
+    /// The scene.
+    pub scene: Scene,
+    /// What is recorded.
+    pub film: FilmDesc,
+    /// The colour space of the output.
+    pub output_space: ColorSpace,
+    /// The pixel filter.
+    pub filter: FilterDesc,
+    /// Sample points.
+    pub sampling: Sampling,
+    /// The path tracer's settings.
+    pub path: PathSettings,
+    /// From the space in which rays are traced to the scene's world.
+    pub world_from_render: Transform,
+    /// Length of a scene unit [m].
+    pub meters_per_unit: f32,
+    /// Hash of the scene's text, for the image's metadata.
+    pub scene_hash: u64,
+}
+
+/// Where samples are taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampling {
+    /// Family of points.
+    pub kind: SamplerKind,
+    /// Samples per pixel, ≥ 1.
+    pub spp: u32,
+    /// Seed.
+    pub seed: u64,
+    /// Whether samples are spread by the pixel filter or lie at pixel centres.
+    pub pixel_jitter: Jitter,
+    /// Whether wavelengths differ between samples.
+    pub wavelength_jitter: Jitter,
+}
+
+/// Whether a sample dimension is random.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Jitter {
+    /// Random.
+    On,
+    /// Fixed at its middle.
+    Off,
+}
+
+/// Settings of the path tracer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathSettings {
+    /// Most bounces.
+    pub max_depth: u32,
+    /// Whether narrow lobes are widened after the first wide one (biased).
+    pub regularize: bool,
+}
+
