@@ -20,7 +20,9 @@ pub(crate) fn mentioned_paths(source: &str, module: &[String], children: &[Strin
         let is_use = tokens[i] == "use";
         let starts_path = matches!(tokens[i].as_str(), "crate" | "super" | "self")
             && tokens.get(i + 1).is_some_and(|t| t == "::")
-            && !preceded_by_path;
+            && !preceded_by_path
+            // `pub(in crate::x)` limits who may look in; it imports nothing.
+            && !(i > 1 && tokens[i - 1] == "in" && tokens[i - 2] == "(");
         if is_use {
             i = use_tree(&tokens, i + 1, &[], &mut paths);
         } else if starts_path {

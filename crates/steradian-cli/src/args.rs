@@ -86,9 +86,8 @@ pub(crate) struct Compare {
 }
 
 fn parse_resolution(text: &str) -> Result<[u32; 2], String> {
-    let parsed = text
-        .split_once(['x', 'X'])
-        .and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
+    let parsed =
+        text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
     match parsed {
         Some([w, h]) if (1..=65_536).contains(&w) && (1..=65_536).contains(&h) => Ok([w, h]),
         Some(_) => Err("width and height must lie between 1 and 65536".to_owned()),
@@ -99,9 +98,7 @@ fn parse_resolution(text: &str) -> Result<[u32; 2], String> {
 fn parse_crop(text: &str) -> Result<[f32; 4], String> {
     let numbers: Vec<f32> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
     match <[f32; 4]>::try_from(numbers) {
-        Ok([x0, x1, y0, y1])
-            if 0.0 <= x0 && x0 < x1 && x1 <= 1.0 && 0.0 <= y0 && y0 < y1 && y1 <= 1.0 =>
-        {
+        Ok([x0, x1, y0, y1]) if 0.0 <= x0 && x0 < x1 && x1 <= 1.0 && 0.0 <= y0 && y0 < y1 && y1 <= 1.0 => {
             Ok([x0, x1, y0, y1])
         }
         _ => Err("expected X0,X1,Y0,Y1 with 0 <= X0 < X1 <= 1 and 0 <= Y0 < Y1 <= 1".to_owned()),
@@ -145,6 +142,10 @@ mod tests {
         assert!(parse_crop("nan,1,0,1").is_err());
         assert_eq!(parse_duration("90s"), Ok(Duration::from_secs(90)));
         assert_eq!(parse_duration("1.5m"), Ok(Duration::from_secs(90)));
-        assert!(parse_duration("0").is_err() && parse_duration("soon").is_err() && parse_duration("1e300h").is_err());
+        assert!(
+            parse_duration("0").is_err()
+                && parse_duration("soon").is_err()
+                && parse_duration("1e300h").is_err()
+        );
     }
 }

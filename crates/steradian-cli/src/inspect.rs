@@ -56,7 +56,10 @@ fn describe(job: &RenderJob) -> String {
     line("triangles", stats.triangles.to_string());
     line("other primitives", stats.other_prims.to_string());
     line("instances", stats.instances.to_string());
-    line("hierarchy", format!("{} nodes, {} levels, {:?}", stats.nodes, stats.depth, scene.accel().instructions()));
+    line(
+        "hierarchy",
+        format!("{} nodes, {} levels, {:?}", stats.nodes, stats.depth, scene.accel().instructions()),
+    );
     line("memory, hierarchy", mebibytes(stats.heap_bytes));
     line("memory, geometry", mebibytes(scene.shapes().iter().map(steradian::shape::Shape::heap_bytes).sum()));
     line("memory, pictures", mebibytes(scene.textures().image_bytes()));

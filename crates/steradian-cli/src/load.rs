@@ -47,7 +47,11 @@ fn is_stdin(path: &Path) -> bool {
 impl Loading {
     /// Compiles what was read and shows all messages.
     pub(crate) fn compile(mut self, verbosity: Verbosity) -> Result<RenderJob, Failure> {
-        let job = self.imported.scene.take().and_then(|d| steradian::scene::compile(d, &Disk, &mut self.imported.diagnostics));
+        let job = self
+            .imported
+            .scene
+            .take()
+            .and_then(|d| steradian::scene::compile(d, &Disk, &mut self.imported.diagnostics));
         self.report(verbosity);
         match job {
             Some(job) if !self.imported.diagnostics.has_errors() => Ok(job),

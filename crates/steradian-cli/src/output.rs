@@ -29,7 +29,8 @@ impl Target {
     /// Checks the extension and that the folder exists.
     pub(crate) fn new(path: &Path) -> Result<Self, String> {
         let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
-        let format = FrameFormat::from_extension(&extension).map_err(|e| format!("{}: {e}", path.display()))?;
+        let format =
+            FrameFormat::from_extension(&extension).map_err(|e| format!("{}: {e}", path.display()))?;
         let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !folder.is_dir() {
             return Err(format!("{}: the folder {} does not exist", path.display(), folder.display()));

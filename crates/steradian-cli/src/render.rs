@@ -6,7 +6,7 @@ use crate::load::{self, Verbosity};
 use crate::output::{Target, note};
 use crate::progress::{Reporter, clock};
 use std::path::{Path, PathBuf};
-use steradian::render::{CancelToken, Report, RenderOptions};
+use steradian::render::{CancelToken, RenderOptions, Report};
 use steradian::scene::{Overrides, SceneDesc};
 
 pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {

@@ -68,7 +68,8 @@ fn white_furnace_leaves_lossless_objects_invisible() {
         Sampler "independent" "integer pixelsamples" 64
         Integrator "path" "integer maxdepth" 100000"#;
     for material in lossless {
-        let world = format!("LightSource \"infinite\" \"spectrum L\" [ 300 1 900 1 ]\n{material}\nShape \"sphere\"");
+        let world =
+            format!("LightSource \"infinite\" \"spectrum L\" [ 300 1 900 1 ]\n{material}\nShape \"sphere\"");
         assert_luminance(&scene(header, &world), 1.0, 0.005);
     }
 }
@@ -148,8 +149,7 @@ fn irradiance_of_a_square() {
         "point3 P" [ -0.5 1 -0.5  0.5 1 -0.5  0.5 1 0.5  -0.5 1 0.5 ]"#;
     let patch = r#"Shape "bilinearmesh" "point3 P" [ -0.5 1 -0.5  0.5 1 -0.5  -0.5 1 0.5  0.5 1 0.5 ]"#;
     for shape in [triangles, patch] {
-        let light =
-            format!("AttributeBegin {BLACK} AreaLightSource \"diffuse\" {UNIT} {shape} AttributeEnd");
+        let light = format!("AttributeBegin {BLACK} AreaLightSource \"diffuse\" {UNIT} {shape} AttributeEnd");
         assert_luminance(&illuminated(&light, 1024), 0.239_456_470_46, 3e-3);
     }
 }
@@ -213,7 +213,8 @@ fn smooth_glass_reflects_by_fresnel() {
 #[test]
 fn a_mirror_reflects_by_complex_fresnel() {
     // Gold-like N = 0.43 + 2.455 i: 0.78691576 at 0°, (0.892820 + 0.683443)/2 at 60°.
-    let material = r#"Material "conductor" "spectrum eta" [ 300 0.43 900 0.43 ] "spectrum k" [ 300 2.455 900 2.455 ]"#;
+    let material =
+        r#"Material "conductor" "spectrum eta" [ 300 0.43 900 0.43 ] "spectrum k" [ 300 2.455 900 2.455 ]"#;
     for (degrees, expected) in [(0.0, 0.786_915_76), (60.0, 0.788_131_5)] {
         assert_luminance(&interface(material, degrees), expected, 1e-3);
     }

@@ -64,8 +64,7 @@ impl Integrator for PathTracer {
                 for light in scene.infinite_lights() {
                     let escaped = scene.escaped(light, direction, w);
                     if !escaped.is_zero() {
-                        let weight =
-                            arrival.weight(|_| scene.escape_density(light, direction));
+                        let weight = arrival.weight(|_| scene.escape_density(light, direction));
                         radiance += throughput * escaped * weight;
                     }
                 }
@@ -102,7 +101,8 @@ impl Integrator for PathTracer {
                 let direct = sample_direct(scene, &from, &bsdf, wo, w, sampler, tally);
                 radiance += throughput * direct;
             }
-            let Some(scattered) = bsdf.sample(wo, sampler.next_1d(), sampler.next_2d(), Mode::Radiance) else {
+            let Some(scattered) = bsdf.sample(wo, sampler.next_1d(), sampler.next_2d(), Mode::Radiance)
+            else {
                 break;
             };
             throughput *= scattered.weight;

@@ -163,7 +163,9 @@ impl Light {
     /// Whether the light's power grows with an area of the scene, that is with the square of the scene's unit of length.
     pub fn scales_with_area(&self) -> bool {
         match self {
-            Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => true,
+            Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => {
+                true
+            }
             Self::Point(_) | Self::Spot(_) | Self::Goniometric(_) | Self::Projection(_) => false,
         }
     }
@@ -171,9 +173,11 @@ impl Light {
     /// Whether the light comes from single directions, so that no scattered ray can run into it.
     pub fn is_delta(&self) -> bool {
         match self {
-            Self::Point(_) | Self::Spot(_) | Self::Distant(_) | Self::Goniometric(_) | Self::Projection(_) => {
-                true
-            }
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Distant(_)
+            | Self::Goniometric(_)
+            | Self::Projection(_) => true,
             Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => false,
         }
     }

@@ -68,8 +68,7 @@ pub fn render(
         .threads
         .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
         .max(1);
-    let mut tiles: Vec<FilmTile> =
-        film.bounds().tiles(TILE_SIDE).into_iter().map(|b| film.tile(b)).collect();
+    let mut tiles: Vec<FilmTile> = film.bounds().tiles(TILE_SIDE).into_iter().map(|b| film.tile(b)).collect();
     let tracer = PathTracer { max_depth: job.path.max_depth, regularize: job.path.regularize };
     let worker = Worker { job, film: &film, integrator: &tracer, layer_from_render: layer_space(job) };
 
@@ -111,7 +110,8 @@ pub fn render(
             break;
         }
         // At most twice the last pass: the first passes are too short to predict from.
-        let aimed = PASS_TIME.as_secs_f64() / pass_start.elapsed().as_secs_f64().max(1e-9) * f64::from(end - first);
+        let aimed =
+            PASS_TIME.as_secs_f64() / pass_start.elapsed().as_secs_f64().max(1e-9) * f64::from(end - first);
         pass = (aimed as u32).clamp(1, (end - first).saturating_mul(2));
     }
     report.elapsed = start.elapsed();

@@ -61,4 +61,3 @@ pub struct PathSettings {
     /// Whether narrow lobes are widened after the first wide one (biased).
     pub regularize: bool,
 }
-

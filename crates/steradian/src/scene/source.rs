@@ -1,7 +1,7 @@
 //! Source files and places in them.
 
-use crate::math::hash;
 use super::files::FileBytes;
+use crate::math::hash;
 use std::sync::Arc;
 
 /// Index of a file in a [`SourceMap`].

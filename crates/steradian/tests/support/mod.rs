@@ -1,5 +1,6 @@
 //! Rendering small scenes from text, and the statistics that the laws are judged by.
 #![allow(dead_code, reason = "each test binary uses its part of this module")]
+#![allow(clippy::expect_used, clippy::panic, reason = "tests fail by panicking")]
 
 use std::path::Path;
 use steradian::image::Frame;

@@ -4,8 +4,8 @@ use crate::math::Transform;
 use crate::scene::desc::{FileRef, MeshDesc, ShapeKind};
 use crate::scene::diagnostic::Diagnostics;
 use crate::scene::files::FileSystem;
-use crate::scene::source::Span;
 use crate::scene::import::ply;
+use crate::scene::source::Span;
 use crate::shape::{
     BilinearMesh, Cylinder, Disk, MeshData, Orientation, PatchData, Shape, ShapeError, Sphere, TriangleMesh,
 };

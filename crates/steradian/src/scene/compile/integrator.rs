@@ -50,8 +50,11 @@ pub(super) fn choose(
         IntegratorKind::Sppm { max_depth, .. } => substitute("sppm", max_depth, false, diagnostics),
         IntegratorKind::AmbientOcclusion { .. } => {
             diagnostics.push(
-                Diagnostic::error(desc.span, "integrator \"ambientocclusion\" is not supported: it shows no radiance")
-                    .with_help("\"path\" renders the scene's own lights"),
+                Diagnostic::error(
+                    desc.span,
+                    "integrator \"ambientocclusion\" is not supported: it shows no radiance",
+                )
+                .with_help("\"path\" renders the scene's own lights"),
             );
             PathSettings { max_depth: 0, regularize: false }
         }

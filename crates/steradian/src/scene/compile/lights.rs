@@ -140,7 +140,9 @@ impl LightCompiler<'_, '_> {
                 image.height()
             ),
         );
-        self.textures.diagnostics.push(notice.with_help("+z is the top row, azimuth 0 (+x) the first column"));
+        self.textures
+            .diagnostics
+            .push(notice.with_help("+z is the top row, azimuth 0 (+x) the first column"));
         latlong_to_octahedral(&image, image.height())
             .map_err(|e| self.textures.diagnostics.error(file.span, e.to_string()))
             .ok()

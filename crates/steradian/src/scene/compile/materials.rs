@@ -4,12 +4,9 @@ use super::pictures;
 use super::spectra::Meaning;
 use super::textures::TextureCompiler;
 use crate::image::ColorEncoding;
-use crate::material::{
-    CoatInput, Detail, Material, MaterialId, Materials, Metal, Roughness, RoughnessScale,
-};
+use crate::material::{CoatInput, Detail, Material, MaterialId, Materials, Metal, Roughness, RoughnessScale};
 use crate::scene::desc::{
-    ConductorOptics, FloatParam, Id, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc,
-    SpectrumParam,
+    ConductorOptics, FloatParam, Id, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc, SpectrumParam,
 };
 use crate::scene::files::FileSystem;
 use crate::spectrum::Spectrum;
@@ -127,7 +124,8 @@ impl MaterialCompiler<'_, '_, '_> {
     fn detail(&mut self, desc: &MaterialDesc) -> Detail {
         if let Some(file) = &desc.normal_map {
             // Components of vectors are not colours: no transfer function applies to them.
-            let map = pictures::read(self.files, file, Some(ColorEncoding::Linear), self.textures.diagnostics);
+            let map =
+                pictures::read(self.files, file, Some(ColorEncoding::Linear), self.textures.diagnostics);
             let Some(map) = map else { return Detail::Flat };
             return match self.materials.push_normal_map(map) {
                 Ok(id) => Detail::Normals(id),

@@ -72,7 +72,11 @@ pub fn compile(
         .map_err(|e| push_unlocated(diagnostics, Severity::Error, e.to_string()))
         .ok();
     if lights.is_empty() {
-        push_unlocated(diagnostics, Severity::Warning, "the scene has no light: the picture will be black".into());
+        push_unlocated(
+            diagnostics,
+            Severity::Warning,
+            "the scene has no light: the picture will be black".into(),
+        );
     }
     let (camera, accel) = (camera?, accel?);
     if diagnostics.has_errors() {
@@ -123,9 +127,9 @@ fn push_unlocated(diagnostics: &mut Diagnostics, severity: Severity, message: St
 /// Whether a material may scatter into single directions, which no light sample can meet.
 fn scatters_discretely(kind: &MaterialKind) -> bool {
     match kind {
-        MaterialKind::Conductor { .. } | MaterialKind::Dielectric { .. } | MaterialKind::ThinDielectric { .. } => {
-            true
-        }
+        MaterialKind::Conductor { .. }
+        | MaterialKind::Dielectric { .. }
+        | MaterialKind::ThinDielectric { .. } => true,
         MaterialKind::Diffuse { .. }
         | MaterialKind::DiffuseTransmission { .. }
         | MaterialKind::CoatedDiffuse { .. }

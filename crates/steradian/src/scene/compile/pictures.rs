@@ -15,7 +15,8 @@ pub(super) fn read(
 ) -> Option<Image> {
     let read = || -> Result<Image, String> {
         let bytes = files.read(&file.path).map_err(|e| e.to_string())?;
-        decode(&bytes, &extension(&file.path), encoding.unwrap_or(ColorEncoding::Srgb)).map_err(|e: ImageError| e.to_string())
+        decode(&bytes, &extension(&file.path), encoding.unwrap_or(ColorEncoding::Srgb))
+            .map_err(|e: ImageError| e.to_string())
     };
     read()
         .map_err(|e| diagnostics.error(file.span, format!("cannot read image {}: {e}", file.path.display())))

@@ -70,7 +70,8 @@ impl ShapeCompiler<'_, '_> {
             let mut object = Vec::new();
             for shape in shapes {
                 if shape.world_from_object.is_animated() {
-                    let message = "a moving shape inside an object is not supported; move the instance instead";
+                    let message =
+                        "a moving shape inside an object is not supported; move the instance instead";
                     self.textures.diagnostics.error(shape.span, message);
                     continue;
                 }

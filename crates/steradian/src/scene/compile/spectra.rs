@@ -72,7 +72,9 @@ impl<'a> SpectrumCompiler<'a> {
                     Meaning::Illuminant => space.illuminant_rgb(rgb),
                 }
             }
-            SpectrumValue::Blackbody { kelvin } => Spectrum::Blackbody(Blackbody::normalized(Kelvin(*kelvin))),
+            SpectrumValue::Blackbody { kelvin } => {
+                Spectrum::Blackbody(Blackbody::normalized(Kelvin(*kelvin)))
+            }
             SpectrumValue::Samples { lambda, values } => {
                 let pairs: Vec<_> = lambda.iter().copied().zip(values.iter().copied()).collect();
                 tabulated(Tabulated::new(&pairs).map_err(|e| error(e.to_string()))?)

@@ -6,17 +6,16 @@ use crate::color::{ColorSpaceKind, UpsamplingTable};
 use crate::image::{ColorEncoding, Pyramid, Wrap};
 use crate::math::{Transform, Vec2};
 use crate::scene::desc::{
-    self, CheckerboardDomain, FileRef, FloatParam, FloatTextureDesc, FloatTextureKind, Id,
-    ImageTextureDesc, NoiseDesc, SceneDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind, TextureId,
-    WrapMode,
+    self, CheckerboardDomain, FileRef, FloatParam, FloatTextureDesc, FloatTextureKind, Id, ImageTextureDesc,
+    NoiseDesc, SceneDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind, TextureId, WrapMode,
 };
 use crate::scene::diagnostic::Diagnostics;
 use crate::scene::files::FileSystem;
 use crate::scene::source::Span;
 use crate::spectrum::Spectrum;
 use crate::texture::{
-    Blend, ColorTableId, Corners, FloatInput, FloatTexture, FloatTextureId, ImageFilter, ImageId, ImageTexture,
-    Mapping2d, Mapping3d, Marble, NoiseKind, Octaves, Pattern, SpectrumInput, SpectrumTexture,
+    Blend, ColorTableId, Corners, FloatInput, FloatTexture, FloatTextureId, ImageFilter, ImageId,
+    ImageTexture, Mapping2d, Mapping3d, Marble, NoiseKind, Octaves, Pattern, SpectrumInput, SpectrumTexture,
     SpectrumTextureId, SpectrumUse, Textures, Weight,
 };
 use std::collections::BTreeMap;
@@ -174,7 +173,11 @@ impl<'a> TextureCompiler<'a> {
         FloatTexture::Blend(Blend { first: self.float(first), second: self.float(second), weight })
     }
 
-    fn define_spectrum(&mut self, id: Id<SpectrumTextureDesc>, meaning: Meaning) -> Option<SpectrumTextureId> {
+    fn define_spectrum(
+        &mut self,
+        id: Id<SpectrumTextureDesc>,
+        meaning: Meaning,
+    ) -> Option<SpectrumTextureId> {
         let key = (id.index(), meaning);
         if let Some(known) = self.spectrum_textures.get(&key) {
             return *known;
@@ -203,10 +206,9 @@ impl<'a> TextureCompiler<'a> {
                 texture: self.spectrum(value, meaning),
                 scale: FloatInput::Constant(1.0),
             },
-            SpectrumTextureKind::Scale { tex, scale } => SpectrumTexture::Scale {
-                texture: self.spectrum(tex, meaning),
-                scale: self.float(scale),
-            },
+            SpectrumTextureKind::Scale { tex, scale } => {
+                SpectrumTexture::Scale { texture: self.spectrum(tex, meaning), scale: self.float(scale) }
+            }
             SpectrumTextureKind::Mix { tex1, tex2, amount } => {
                 let weight = Weight::Amount(self.float(amount));
                 self.spectrum_blend(tex1, tex2, weight, meaning)

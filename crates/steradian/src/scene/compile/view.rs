@@ -73,11 +73,13 @@ pub(super) fn sampler_kind(desc: &SamplerDesc, diagnostics: &mut Diagnostics) ->
         SamplerKind::PaddedSobol(r) => sampler::SamplerKind::PaddedSobol(random(r)),
         SamplerKind::ZSobol(r) => sampler::SamplerKind::ZSobol(random(r)),
         SamplerKind::Sobol(r) => {
-            diagnostics.notice(desc.span, "sampler \"sobol\" is rendered with \"zsobol\", its nearest relative");
+            diagnostics
+                .notice(desc.span, "sampler \"sobol\" is rendered with \"zsobol\", its nearest relative");
             sampler::SamplerKind::ZSobol(random(r))
         }
         SamplerKind::Pmj02bn => {
-            diagnostics.notice(desc.span, "sampler \"pmj02bn\" is rendered with \"zsobol\", its nearest relative");
+            diagnostics
+                .notice(desc.span, "sampler \"pmj02bn\" is rendered with \"zsobol\", its nearest relative");
             sampler::SamplerKind::ZSobol(sampler::Randomization::FastOwen)
         }
     }

@@ -235,12 +235,14 @@ impl Header {
                         return Err(error("the length of a list must be an integer"));
                     }
                     let kind = PropertyKind::List { count, item };
-                    add_property(&mut elements, name, kind).ok_or_else(|| error("property before any element"))?;
+                    add_property(&mut elements, name, kind)
+                        .ok_or_else(|| error("property before any element"))?;
                 }
                 ["property", scalar, name] => {
                     let kind = Scalar::parse(scalar).map(PropertyKind::Scalar);
                     let kind = kind.ok_or_else(|| error("unknown type"))?;
-                    add_property(&mut elements, name, kind).ok_or_else(|| error("property before any element"))?;
+                    add_property(&mut elements, name, kind)
+                        .ok_or_else(|| error("property before any element"))?;
                 }
                 _ => return Err(error("it is not understood")),
             }
@@ -324,9 +326,11 @@ impl Data<'_> {
 fn read_vertices(element: &Element, data: &mut Data, mesh: &mut PlyMesh) -> Result<(), PlyError> {
     const UV_NAMES: [[&str; 2]; 4] =
         [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
-    let triple = |names: [&str; 3]| Some(names.map(|n| element.position(&[n])))
-        .filter(|p| p.iter().all(Option::is_some))
-        .map(|p| p.map(|i| i.unwrap_or(0)));
+    let triple = |names: [&str; 3]| {
+        Some(names.map(|n| element.position(&[n])))
+            .filter(|p| p.iter().all(Option::is_some))
+            .map(|p| p.map(|i| i.unwrap_or(0)))
+    };
     let xyz = triple(["x", "y", "z"]).ok_or(PlyError::Incomplete("gives vertices no x, y and z"))?;
     let normal = triple(["nx", "ny", "nz"]);
     let uv = UV_NAMES.iter().find_map(|[u, v]| Some([element.position(&[u])?, element.position(&[v])?]));
@@ -385,7 +389,9 @@ fn read_faces(element: &Element, data: &mut Data, mesh: &mut PlyMesh) -> Result<
                 PropertyKind::Scalar(s) if Some(i) == number => {
                     face_number = data.scalar(s).map_err(located)? as i64 as u32;
                 }
-                PropertyKind::Scalar(_) | PropertyKind::List { .. } => data.skip(property).map_err(located)?,
+                PropertyKind::Scalar(_) | PropertyKind::List { .. } => {
+                    data.skip(property).map_err(located)?
+                }
             }
         }
         let [a, b, c, d] = face;
@@ -423,8 +429,12 @@ mod tests {
     const HEADER: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
         property double s\nproperty double t\nproperty uchar red\nelement face 2\n\
         property list uchar int vertex_indices\nproperty int face_indices\nend_header\n";
-    const VERTICES: [[f64; 5]; 4] =
-        [[0.0, 0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 1.0, 0.0], [1.0, 1.0, 0.5, 1.0, 1.0], [0.0, 1.0, 0.0, 0.0, 1.0]];
+    const VERTICES: [[f64; 5]; 4] = [
+        [0.0, 0.0, 0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0, 1.0, 0.0],
+        [1.0, 1.0, 0.5, 1.0, 1.0],
+        [0.0, 1.0, 0.0, 0.0, 1.0],
+    ];
 
     fn ascii() -> String {
         let mut text = format!("ply\nformat ascii 1.0\ncomment made by hand\n{HEADER}");
@@ -475,13 +485,25 @@ mod tests {
         let good = ascii();
         assert_eq!(message("solid"), "the header does not end");
         assert_eq!(message("solid x\n"), "this is not a PLY file");
-        assert_eq!(message(&good.replace("3 0 1 2 7", "3 0 1 4 7")), "face 0: vertex index 4 is out of range: there are 4 vertices");
-        assert_eq!(message(&good.replace("3 0 1 2 7", "3 0 -1 2 7")), "face 0: vertex index -1 is out of range");
-        assert_eq!(message(&good.replace("3 0 1 2 7", "2 0 1 7")), "face 0: 2 corners; only 3 and 4 are supported");
+        assert_eq!(
+            message(&good.replace("3 0 1 2 7", "3 0 1 4 7")),
+            "face 0: vertex index 4 is out of range: there are 4 vertices"
+        );
+        assert_eq!(
+            message(&good.replace("3 0 1 2 7", "3 0 -1 2 7")),
+            "face 0: vertex index -1 is out of range"
+        );
+        assert_eq!(
+            message(&good.replace("3 0 1 2 7", "2 0 1 7")),
+            "face 0: 2 corners; only 3 and 4 are supported"
+        );
         assert_eq!(message(&good.replace("0.5", "nan")), "vertex 2: position [1, 1, NaN] is not finite");
         assert_eq!(message(&good.replace("0.5", "half")), "vertex 2: \"half\" is no number");
         assert_eq!(message(good.trim_end_matches("9\n")), "face 1: the file ends here");
-        assert_eq!(message(&good.replace("property float z\n", "")), "the header gives vertices no x, y and z");
+        assert_eq!(
+            message(&good.replace("property float z\n", "")),
+            "the header gives vertices no x, y and z"
+        );
         assert_eq!(message(&good.replace("float x", "quad x")), "line 5 of the header: unknown type");
         assert_eq!(
             message(&good.replace("element face 2", "element face 999999999999")),
