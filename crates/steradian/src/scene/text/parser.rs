@@ -300,6 +300,9 @@ impl Cursor<'_> {
         let next = self.lexer.peek();
         self.run_end(end, "a number")?;
         let count = list.len();
+        if count < N && next.kind == TokenKind::Word && !self.at_keyword(next) {
+            return self.expected("a number", next);
+        }
         let Ok(array) = <[f32; N]>::try_from(list) else {
             let name = shown(self.lexer.bytes(keyword));
             let span = self.span(keyword);

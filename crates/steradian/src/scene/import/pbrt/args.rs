@@ -22,7 +22,7 @@ pub(super) struct Preset {
 /// and find every error; nobody sees the resulting description.
 pub(super) struct Args<'c> {
     pub(super) ctx: &'c mut Context,
-    own: Vec<Option<Param>>,
+    own: Vec<Slot>,
     presets: &'c [Preset],
     asked: Vec<&'static str>,
     damaged: bool,
@@ -35,6 +35,13 @@ pub(super) struct Args<'c> {
     pub(super) span: Span,
     /// Textures that the parameters refer to.
     pub(super) uses: Vec<TextureId>,
+}
+
+/// A parameter of the directive; its place outlives its value.
+struct Slot {
+    name: String,
+    span: Span,
+    param: Option<Param>,
 }
 
 /// A parameter on its way to a reader.
@@ -66,7 +73,8 @@ impl<'c> Args<'c> {
                 ctx.diagnostics.push(d.with_related(first.span, "it was given here first"));
             }
         }
-        let own = list.into_iter().map(Some).collect();
+        let slot = |p: Param| Slot { name: p.name.clone(), span: p.span, param: Some(p) };
+        let own = list.into_iter().map(slot).collect();
         let damaged = params.damaged;
         Self {
             ctx,
@@ -94,7 +102,7 @@ impl<'c> Args<'c> {
 
     /// Reports every parameter that no accessor asked for.
     pub(super) fn finish(self) -> Vec<TextureId> {
-        for p in self.own.into_iter().flatten() {
+        for p in self.own.into_iter().filter(|s| s.param.is_some()) {
             if !self.understood || self.asked.contains(&p.name.as_str()) {
                 continue;
             }
@@ -136,19 +144,19 @@ impl<'c> Args<'c> {
 
     /// Whether a parameter is given, whatever its type.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.own.iter().flatten().any(|p| p.name == name) || self.presets.iter().any(|p| p.param.name == name)
+        self.own.iter().any(|p| p.name == name) || self.presets.iter().any(|p| p.param.name == name)
     }
 
     /// The place of a given parameter, or of the class name.
     pub(super) fn span_of(&self, name: &str) -> Span {
-        self.own.iter().flatten().find(|p| p.name == name).map_or(self.span, |p| p.span)
+        self.own.iter().find(|p| p.name == name).map_or(self.span, |p| p.span)
     }
 
     /// Takes the parameter of that name when it has one of the expected types, and reports it otherwise.
     pub(super) fn take(&mut self, name: &'static str, types: &[ParamType]) -> Option<Taken> {
         self.asked.push(name);
-        let own = self.own.iter_mut().find(|p| p.as_ref().is_some_and(|p| p.name == name));
-        let taken = match own.and_then(Option::take) {
+        let own = self.own.iter_mut().find(|s| s.name == name);
+        let taken = match own.and_then(|s| s.param.take()) {
             Some(param) => Taken { param, color_space: self.color_space },
             None => {
                 let preset = self.presets.iter().rev().find(|p| p.param.name == name)?;

@@ -115,7 +115,7 @@ fn depth_first(count: usize, uses: impl Fn(usize) -> Vec<usize>) -> (Vec<usize>,
                     stack.push((next, uses(next)));
                 }
                 Some(next) => {
-                    if state[next] == Visit::Open {
+                    if state[next] == Visit::Open && circular.last() != Some(&node) {
                         circular.push(node);
                     }
                 }
