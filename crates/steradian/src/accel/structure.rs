@@ -4,7 +4,7 @@ use super::contract::{Instance, ObjectId};
 use super::kernel::KernelChoice;
 use super::tree::Tree;
 use crate::math::{
-    AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Transform, float,
+    AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Transform, Vec3, float,
 };
 use glam::{DAffine3, Mat3};
 
@@ -68,7 +68,13 @@ impl Placed {
         // Invertible transforms keep the length of normals positive.
         let ng = t.normal(s.ng).unwrap_or(s.ng);
         let shading = &s.shading;
-        let n = t.normal(shading.n).unwrap_or(ng).facing(*ng);
+        let moved_n = t.normal_vector(*shading.n);
+        let n = t.normal(shading.n).unwrap_or(ng);
+        let derivative = |dn: Vec3| {
+            // d(N/|N|) for N = M⁻ᵀ n.
+            let change = t.normal_vector(dn) / moved_n.length();
+            change - *n * n.dot(change)
+        };
         SurfacePoint {
             p: BoundedPoint { p: moved.p, error: moved.error + back },
             ng,
@@ -76,11 +82,11 @@ impl Placed {
             dpdu: t.vector(s.dpdu),
             dpdv: t.vector(s.dpdv),
             shading: Shading {
-                n,
+                n: n.facing(*ng),
                 dpdu: t.vector(shading.dpdu),
                 dpdv: t.vector(shading.dpdv),
-                dndu: t.normal_vector(shading.dndu),
-                dndv: t.normal_vector(shading.dndv),
+                dndu: derivative(shading.dndu),
+                dndv: derivative(shading.dndv),
             },
             time: s.time,
             face: s.face,

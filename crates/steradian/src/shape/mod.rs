@@ -5,13 +5,17 @@
 
 pub mod bilinear;
 pub mod contract;
+pub mod curve;
 pub mod cylinder;
 pub mod disk;
+pub mod loop_subdivision;
 pub mod mesh;
 mod placement;
 mod rounding;
 pub mod sphere;
 mod spherical;
+#[cfg(test)]
+mod tests;
 mod triangle;
 mod validate;
 pub mod watertight;
@@ -20,6 +24,7 @@ pub use bilinear::{BilinearMesh, Patch, PatchData};
 pub use contract::{
     Orientation, PrimHit, ReferencePoint, ShapeError, ShapeId, ShapeSample, ShapeSampleToward,
 };
+pub use curve::{Curve, CurveData, CurveSegment};
 pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use mesh::{MeshData, TriangleMesh};
@@ -41,6 +46,8 @@ pub enum Shape {
     Disk(Box<Disk>),
     /// An open cylinder or a sector of one.
     Cylinder(Box<Cylinder>),
+    /// A thin curve in parts.
+    Curve(Curve),
 }
 
 /// One primitive with all that intersecting it takes, independent of the shape's other data.
@@ -56,6 +63,8 @@ pub enum Primitive {
     Disk(Box<Disk>),
     /// A cylinder.
     Cylinder(Box<Cylinder>),
+    /// A part of a curve.
+    Segment(CurveSegment),
 }
 
 impl Primitive {
@@ -67,6 +76,7 @@ impl Primitive {
             Self::Sphere(s) => s.intersect(ray, t_max),
             Self::Disk(s) => s.intersect(ray, t_max),
             Self::Cylinder(s) => s.intersect(ray, t_max),
+            Self::Segment(s) => s.intersect(ray, t_max),
         }
     }
 
@@ -78,6 +88,7 @@ impl Primitive {
             Self::Sphere(s) => s.bounds(),
             Self::Disk(s) => s.bounds(),
             Self::Cylinder(s) => s.bounds(),
+            Self::Segment(s) => s.bounds(),
         }
     }
 }
@@ -91,6 +102,7 @@ impl Shape {
             Self::Sphere(s) => s.bounds(),
             Self::Disk(s) => s.bounds(),
             Self::Cylinder(s) => s.bounds(),
+            Self::Curve(s) => s.bounds(),
         }
     }
 
@@ -111,6 +123,7 @@ impl Shape {
             Self::Mesh(s) => s.triangle_count(),
             Self::Bilinear(s) => s.patch_count(),
             Self::Sphere(_) | Self::Disk(_) | Self::Cylinder(_) => 1,
+            Self::Curve(s) => s.segment_count(),
         }
     }
 
@@ -122,6 +135,7 @@ impl Shape {
             Self::Sphere(s) => Primitive::Sphere(s.clone()),
             Self::Disk(s) => Primitive::Disk(s.clone()),
             Self::Cylinder(s) => Primitive::Cylinder(s.clone()),
+            Self::Curve(s) => Primitive::Segment(s.segment(prim)),
         }
     }
 
@@ -133,6 +147,7 @@ impl Shape {
             Self::Sphere(s) => s.surface(ray, hit),
             Self::Disk(s) => s.surface(ray, hit),
             Self::Cylinder(s) => s.surface(ray, hit),
+            Self::Curve(s) => s.surface(prim, ray, hit),
         }
     }
 
@@ -144,10 +159,12 @@ impl Shape {
             Self::Sphere(s) => s.area(),
             Self::Disk(s) => s.area(),
             Self::Cylinder(s) => s.area(),
+            Self::Curve(s) => s.area(prim),
         }
     }
 
-    /// Chooses a point of primitive `prim` by area; `None` when it has none.
+    /// Chooses a point of primitive `prim` by area; `None` when it has none, and for curves, which face every ray
+    /// and cannot be sampled.
     pub fn sample_area(&self, prim: u32, u: Vec2) -> Option<ShapeSample> {
         match self {
             Self::Mesh(s) => s.sample_area(prim, u),
@@ -155,6 +172,7 @@ impl Shape {
             Self::Sphere(s) => s.sample_area(u),
             Self::Disk(s) => s.sample_area(u),
             Self::Cylinder(s) => s.sample_area(u),
+            Self::Curve(_) => None,
         }
     }
 
@@ -167,6 +185,7 @@ impl Shape {
             Self::Sphere(s) => s.sample_toward(from, u),
             Self::Disk(s) => s.sample_toward(from, u),
             Self::Cylinder(s) => s.sample_toward(from, u),
+            Self::Curve(_) => None,
         }
     }
 
@@ -179,6 +198,19 @@ impl Shape {
             Self::Sphere(s) => s.pdf_toward(from, wi, hit),
             Self::Disk(s) => s.pdf_toward(from, wi, hit),
             Self::Cylinder(s) => s.pdf_toward(from, wi, hit),
+            Self::Curve(_) => PdfSolidAngle(0.0),
+        }
+    }
+
+    /// Bytes held on the heap.
+    pub fn heap_bytes(&self) -> usize {
+        match self {
+            Self::Mesh(s) => s.heap_bytes(),
+            Self::Bilinear(s) => s.heap_bytes(),
+            Self::Sphere(_) => size_of::<Sphere>(),
+            Self::Disk(_) => size_of::<Disk>(),
+            Self::Cylinder(_) => size_of::<Cylinder>(),
+            Self::Curve(s) => s.heap_bytes(),
         }
     }
 }

@@ -119,8 +119,13 @@ impl Placement {
         let (dpdu, dpdv) = ((linear * s.dpdu).as_vec3(), (linear * s.dpdv).as_vec3());
         // The transform is invertible and n a unit vector: the product has length.
         let n = self.oriented_normal(s.n).unwrap_or(Normal::Z);
-        let (dndu, dndv): (Vec3, Vec3) =
-            (self.orient(self.normal * s.dndu).as_vec3(), self.orient(self.normal * s.dndv).as_vec3());
+        let length = (self.normal * s.n).length();
+        let derivative = |dn: DVec3| {
+            // d(N/|N|) for N = M⁻ᵀ n.
+            let change = self.orient(self.normal * dn) / length;
+            (change - n.as_dvec3() * n.as_dvec3().dot(change)).as_vec3()
+        };
+        let (dndu, dndv): (Vec3, Vec3) = (derivative(s.dndu), derivative(s.dndv));
         SurfacePoint {
             p: self.bounded_point(s.p),
             ng: n,
