@@ -114,6 +114,7 @@ impl Shape {
             Self::Sphere(_) => size_of::<Sphere>(),
             Self::Disk(_) => size_of::<Disk>(),
             Self::Cylinder(_) => size_of::<Cylinder>(),
+            Self::Curve(s) => s.heap_bytes(),
         }
     }
 
@@ -199,18 +200,6 @@ impl Shape {
             Self::Disk(s) => s.pdf_toward(from, wi, hit),
             Self::Cylinder(s) => s.pdf_toward(from, wi, hit),
             Self::Curve(_) => PdfSolidAngle(0.0),
-        }
-    }
-
-    /// Bytes held on the heap.
-    pub fn heap_bytes(&self) -> usize {
-        match self {
-            Self::Mesh(s) => s.heap_bytes(),
-            Self::Bilinear(s) => s.heap_bytes(),
-            Self::Sphere(_) => size_of::<Sphere>(),
-            Self::Disk(_) => size_of::<Disk>(),
-            Self::Cylinder(_) => size_of::<Cylinder>(),
-            Self::Curve(s) => s.heap_bytes(),
         }
     }
 }
