@@ -312,7 +312,7 @@ fn a_stated_power_or_illuminance_is_what_the_light_gives() {
     let uniform = UniformInfiniteLight::new(white(), &stated).unwrap();
     assert!((lux(&Light::UniformInfinite(uniform), 16) / 800.0 - 1.0).abs() < 5e-3);
     let map = ImageInfiniteLight::new(t, picture([16, 16], sky), &stated).unwrap();
-    let found = lux(&Light::ImageInfinite(Box::new(map)), 24);
+    let found = lux(&Light::ImageInfinite(Box::new(map)), 64);
     assert!((found / 800.0 - 1.0).abs() < 0.02, "{found}");
 }
 
@@ -323,12 +323,6 @@ fn environment_maps_are_sampled_by_their_density() {
     let light = Light::ImageInfinite(Box::new(map));
     let w = Wavelengths::sample_visible(0.4);
     let from = facing(Vec3::ZERO, Vec3::Z);
-    let n = 128;
-    let mass: f64 = grid(n)
-        .map(|st| Dir::new(equal_area_square_to_sphere(st)).unwrap())
-        .map(|d| f64::from(light.escape_density(d).0) * f64::from(4.0 * PI) / f64::from(n * n))
-        .sum();
-    assert!((mass - 1.0).abs() < 0.01, "{mass}");
     // χ² over octants of the sphere: counts of random samples against the density's integral.
     let octant = |d: Vec3| usize::from(d.x > 0.0) + 2 * usize::from(d.y > 0.0) + 4 * usize::from(d.z > 0.0);
     let mut expected = [0.0_f64; 8];
@@ -338,6 +332,9 @@ fn environment_maps_are_sampled_by_their_density() {
         let p = light.escape_density(Dir::new(d).unwrap()).0;
         expected[octant(d)] += f64::from(p) * f64::from(4.0 * PI) / f64::from(fine * fine);
     }
+    // The edges of the brightest texel fall between the nodes: 512² of them resolve it to half a percent.
+    let mass: f64 = expected.iter().sum();
+    assert!((mass - 1.0).abs() < 5e-3, "{mass}");
     let mut counts = [0_u32; 8];
     let samples = 20_000;
     let mut rng = crate::math::hash::Pcg32::new(7, 1);
