@@ -1,5 +1,6 @@
 //! Shapes that emit diffusely.
 
+use super::bounds::{Cone, EmitterBounds};
 use super::contract::{LightError, LightPower, LightSample, LightTarget};
 use super::normalise::{Emission, Stated};
 use super::picture::EmissionPicture;
@@ -124,6 +125,26 @@ impl DiffuseAreaLight {
         match &self.surface {
             Surface::Uniform(e) => e.at(w),
             Surface::Picture(p) => p.light(p.bilinear(Vec2::new(uv.x, 1.0 - uv.y)), w),
+        }
+    }
+
+    /// Where primitive `prim` is and shines, given that the whole light has `power` up to a common factor.
+    pub(super) fn bounds(&self, shape: &Shape, prim: u32, power: f32) -> EmitterBounds {
+        // Normals of flat and nearly flat primitives show at a few points; closed ones face everywhere.
+        let facets = matches!(shape, Shape::Mesh(_) | Shape::Disk(_) | Shape::Bilinear(_));
+        let points =
+            (0..if facets { 9 } else { 0 }).map(|i| Vec2::new((i % 3) as f32, (i / 3) as f32) * 0.49 + 0.01);
+        let normals = points
+            .filter_map(|u| shape.sample_area(prim, u))
+            .map(|s| Cone { axis: s.n.into(), cos: 1.0 })
+            .reduce(Cone::union)
+            .unwrap_or(Cone::SPHERE);
+        EmitterBounds {
+            bounds: shape.primitive(prim).bounds(),
+            normals,
+            cos_emission: 0.0,
+            intensity: power * shape.area(prim) / Self::geometry(self.sides, self.area),
+            both_sides: self.sides == Sides::Both,
         }
     }
 

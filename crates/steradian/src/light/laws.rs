@@ -52,7 +52,7 @@ fn irradiance(light: &Light, shapes: &[Shape], from: &ReferencePoint, n: u32) ->
 
 /// K_m ∫ f ȳ dλ.
 fn photometric(f: impl Fn(&Wavelengths) -> Sampled<Radiance>) -> f32 {
-    let n = 4000;
+    let n = 500;
     let mut sum = 0.0_f64;
     for i in 0..n {
         let w = Wavelengths::sample_visible((i as f32 + 0.5) / n as f32);
@@ -420,6 +420,102 @@ fn selection_by_power_follows_area_and_luminance() {
         let found = sampler.probability(Emitter { light: LightId(light), prim });
         assert!((found - p).abs() < 1e-4, "{light} {prim}: {found}");
     }
+}
+
+#[test]
+fn selection_by_position_finds_every_light_with_its_probability_and_favours_the_near() {
+    let mut rng = crate::math::hash::Pcg32::new(5, 1);
+    let mut random = |lo: f32, hi: f32| lo + (hi - lo) * rng.next_f32();
+    let mut shapes = Vec::new();
+    for _ in 0..12 {
+        let turn =
+            Transform::rotate(random(0.0, 360.0), Vec3::new(random(-1.0, 1.0), 1.0, random(-1.0, 1.0)))
+                .unwrap();
+        let to = Vec3::new(random(-5.0, 5.0), random(-5.0, 5.0), random(-5.0, 5.0));
+        let t = Transform::translate(to) * turn;
+        let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)];
+        let data = MeshData {
+            indices: vec![[0, 1, 2], [0, 2, 3]],
+            positions: corners.map(|(x, y)| Point::new(x, y, 1.0)).to_vec(),
+            ..MeshData::default()
+        };
+        shapes.push(Shape::Mesh(TriangleMesh::new(data, &t, Orientation::AsDefined).unwrap()));
+    }
+    let mut lights: Vec<Light> = (0..)
+        .zip(&shapes)
+        .map(|(id, shape)| {
+            let sides = if id % 3 == 0 { Sides::Both } else { Sides::Front };
+            let radiance = AreaRadiance::Uniform(one());
+            Light::DiffuseArea(DiffuseAreaLight::new(ShapeId(id), shape, radiance, sides, &ABSOLUTE).unwrap())
+        })
+        .collect();
+    let spot = |to: Vec3| {
+        SpotLight::new(Transform::IDENTITY, Point::ORIGIN, Point(to), 30.0, 0.0, one(), &ABSOLUTE)
+            .map(Light::Spot)
+    };
+    lights.push(spot(Vec3::X).unwrap());
+    lights.push(spot(-Vec3::Z).unwrap());
+    lights.push(Light::Point(
+        PointLight::new(Transform::IDENTITY, Point::new(2.0, 1.0, 0.0), one(), &ABSOLUTE).unwrap(),
+    ));
+    lights.push(Light::UniformInfinite(UniformInfiniteLight::new(one(), &ABSOLUTE).unwrap()));
+    let sampler = LightSampler::for_scene(&lights, &shapes, 10.0, Selection::Position);
+    let by_power = LightSampler::by_power(&lights, &shapes, 10.0);
+    let w = Wavelengths::sample_visible(0.5);
+    let mut variances = [0.0_f64; 2];
+    for i in 0..40 {
+        let n = Vec3::new(random(-1.0, 1.0), random(-1.0, 1.0), random(-1.0, 1.0));
+        let from = facing(Vec3::new(random(-4.0, 4.0), random(-4.0, 4.0), random(-4.0, 4.0)), n);
+        // The irradiance of every emitter by itself, by quadrature.
+        let own = |e: Emitter| {
+            let light = &lights[e.light.0 as usize];
+            let mut sum = 0.0;
+            for u in grid(8) {
+                let Some(s) = light.sample(&from, &shapes, e.prim, u, &w) else { continue };
+                let cos = f64::from(s.wi.dot(*from.ns.unwrap()).max(0.0));
+                let density = match s.density {
+                    Density::Delta => 1.0,
+                    Density::SolidAngle(p) => f64::from(p.0),
+                };
+                sum += f64::from(s.radiance[0]) * cos / density / 64.0;
+            }
+            sum
+        };
+        let emitters: Vec<Emitter> = (0..lights.len() as u32)
+            .flat_map(|light| {
+                let prims = shapes.get(light as usize).map_or(1, Shape::prim_count);
+                (0..prims).map(move |prim| Emitter { light: LightId(light), prim })
+            })
+            .collect();
+        let contributions: Vec<f64> = emitters.iter().map(|&e| own(e)).collect();
+        let is_local = |e: Emitter| !lights[e.light.0 as usize].is_infinite();
+        let mut mass = 0.0;
+        for (&e, &c) in emitters.iter().zip(&contributions) {
+            let p = sampler.probability_at(&from, e);
+            mass += p;
+            assert!(c == 0.0 || p > 0.0, "{i}: {e:?} contributes {c} and is never chosen");
+            if c > 0.0 && is_local(e) {
+                variances[0] += c * c / f64::from(p);
+                variances[1] += c * c / f64::from(by_power.probability(e));
+            }
+        }
+        assert!(mass < 1.0 + 1e-4, "{mass}");
+        let draws = 2000;
+        let mut counts = vec![0_u32; emitters.len()];
+        for k in 0..draws {
+            let Some(c) = sampler.sample_at(&from, (k as f32 + 0.5) / draws as f32) else { continue };
+            let found = sampler.probability_at(&from, c.emitter);
+            assert!((found / c.probability - 1.0).abs() < 1e-4, "{found} {c:?}");
+            counts[emitters.iter().position(|&e| e == c.emitter).unwrap()] += 1;
+        }
+        for (&e, &count) in emitters.iter().zip(&counts) {
+            let p = sampler.probability_at(&from, e);
+            // A grid of u resolves each interval to one draw at each end.
+            assert!((count as f32 - p * draws as f32).abs() < 2.0, "{e:?}: {count} {p}");
+        }
+    }
+    // Second moment of the estimate of local light, summed over places.
+    assert!(variances[0] < 0.75 * variances[1], "{variances:?}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Light sources: what arrives at a point, from where, with which density; how much they emit; which to sample.
 
 mod area;
+mod bounds;
 mod contract;
 mod infinite;
 mod normalise;
@@ -8,6 +9,7 @@ mod octahedral;
 mod picture;
 mod point;
 mod selection;
+mod tree;
 
 pub use area::{AreaRadiance, DiffuseAreaLight, Sides};
 pub use contract::{Emitter, LightError, LightId, LightPower, LightSample, LightTarget};
@@ -16,7 +18,9 @@ pub use normalise::{Amount, Emission, Stated};
 pub use octahedral::latlong_to_octahedral;
 pub use picture::EmissionPicture;
 pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
-pub use selection::{Candidate, Chosen, LightSampler};
+pub use selection::{Chosen, LightSampler};
+
+use selection::Candidate;
 
 use crate::math::{Dir, SurfacePoint, Vec2};
 use crate::shape::{ReferencePoint, Shape};
@@ -188,31 +192,57 @@ impl Light {
     }
 }
 
+/// What [`LightSampler::sample_at`] takes into account.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Selection {
+    /// Every emitter alike.
+    Uniform,
+    /// Power alone.
+    Power,
+    /// Power, distance and orientation.
+    Position,
+}
+
 impl LightSampler {
-    /// A selection among all lights of a scene, by power. `shapes` are those that area lights refer to.
-    pub fn by_power(lights: &[Light], shapes: &[Shape], scene_radius: f32) -> Self {
-        let weights: Vec<Vec<f32>> = lights
-            .iter()
-            .map(|light| {
-                let power = light.power(scene_radius);
-                // Luminance noise is what shows, but infrared light must be found as well: a twentieth for any watt.
-                let weight = power.lumens / LUMENS_PER_WATT + 0.05 * power.watts;
-                match light {
-                    Light::DiffuseArea(l) => match shapes.get(l.shape().0 as usize) {
-                        Some(shape) => {
-                            (0..shape.prim_count()).map(|prim| weight * shape.area(prim) / l.area()).collect()
-                        }
-                        None => Vec::new(),
-                    },
-                    _ => vec![weight],
+    /// A selection among all lights of a scene. `shapes` are those that area lights refer to.
+    pub fn for_scene(lights: &[Light], shapes: &[Shape], scene_radius: f32, selection: Selection) -> Self {
+        Self::new(lights.iter().zip(0..).map(|(light, id)| {
+            let power = light.power(scene_radius);
+            // Luminance noise is what shows, but infrared light must be found as well: a twentieth for any watt.
+            let power = power.lumens / LUMENS_PER_WATT + 0.05 * power.watts;
+            let mut candidate = Candidate {
+                light: LightId(id),
+                infinite: light.is_infinite(),
+                weights: vec![power],
+                bounds: Vec::new(),
+            };
+            match light {
+                Light::DiffuseArea(l) => {
+                    if let Some(shape) = shapes.get(l.shape().0 as usize) {
+                        let prims = 0..shape.prim_count();
+                        candidate.weights = prims.clone().map(|p| power * shape.area(p) / l.area()).collect();
+                        candidate.bounds = prims.map(|prim| l.bounds(shape, prim, power)).collect();
+                    }
                 }
-            })
-            .collect();
-        Self::new(lights.iter().zip(&weights).zip(0..).map(|((light, weights), id)| Candidate {
-            light: LightId(id),
-            infinite: light.is_infinite(),
-            weights,
+                Light::Point(l) => candidate.bounds.push(l.bounds(power)),
+                Light::Spot(l) => candidate.bounds.push(l.bounds(power)),
+                Light::Goniometric(l) => candidate.bounds.push(l.bounds(power)),
+                Light::Projection(l) => candidate.bounds.push(l.bounds(power)),
+                Light::Distant(_) | Light::UniformInfinite(_) | Light::ImageInfinite(_) => {}
+            }
+            if selection != Selection::Position {
+                candidate.bounds.clear();
+            }
+            if selection == Selection::Uniform {
+                candidate.weights.iter_mut().for_each(|w| *w = if *w > 0.0 { 1.0 } else { 0.0 });
+            }
+            candidate
         }))
+    }
+
+    /// [`LightSampler::for_scene`] by power alone.
+    pub fn by_power(lights: &[Light], shapes: &[Shape], scene_radius: f32) -> Self {
+        Self::for_scene(lights, shapes, scene_radius, Selection::Power)
     }
 }
 

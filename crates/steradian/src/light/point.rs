@@ -1,12 +1,13 @@
 //! Lights at a point: isotropic, spot, by a picture of directions, and slide projectors.
 
+use super::bounds::{Cone, EmitterBounds};
 use super::contract::{LightError, LightPower, LightSample, LightTarget};
 use super::normalise::{Emission, Stated};
 use super::picture::EmissionPicture;
 use crate::image::Image;
 use crate::math::float::smoothstep;
 use crate::math::warp::{equal_area_sphere_to_square, equal_area_square_to_sphere};
-use crate::math::{BoundedPoint, Dir, Frame, Point, Transform, Vec2, Vec3};
+use crate::math::{BoundedPoint, Bounds3, Dir, Frame, Point, Transform, Vec2, Vec3};
 use crate::shape::ReferencePoint;
 use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::{Density, Radiance};
@@ -50,6 +51,20 @@ impl Stand {
     }
 }
 
+impl Stand {
+    /// A light here with the given intensity in directions within `cone` (light space, around +z) and `beyond` [rad] of it.
+    fn bounds(&self, intensity: f32, cos: f32, beyond: f32) -> EmitterBounds {
+        let axis = self.light_from_render.inverse().direction(Dir::Z).unwrap_or(Dir::Z);
+        EmitterBounds {
+            bounds: Bounds3::from_points([self.position]),
+            normals: Cone { axis, cos },
+            cos_emission: beyond.cos(),
+            intensity,
+            both_sides: false,
+        }
+    }
+}
+
 /// A point that shines equally in all directions.
 #[derive(Clone, Debug)]
 pub struct PointLight {
@@ -75,6 +90,10 @@ impl PointLight {
 
     pub(super) fn power(&self) -> LightPower {
         power(&self.intensity, 4.0 * PI)
+    }
+
+    pub(super) fn bounds(&self, power: f32) -> EmitterBounds {
+        self.stand.bounds(power / (4.0 * PI), -1.0, 0.5 * PI)
     }
 }
 
@@ -132,6 +151,13 @@ impl SpotLight {
     pub(super) fn power(&self) -> LightPower {
         power(&self.intensity, Self::solid_angle(self.cos_full, self.cos_dark))
     }
+
+    pub(super) fn bounds(&self, power: f32) -> EmitterBounds {
+        let intensity = power / Self::solid_angle(self.cos_full, self.cos_dark);
+        let beyond = self.cos_dark.clamp(-1.0, 1.0).acos() - self.cos_full.clamp(-1.0, 1.0).acos();
+        // The sum of both angles rounds; what lies on the edge is dark anyway.
+        self.stand.bounds(intensity, self.cos_full, beyond + 1e-3)
+    }
 }
 
 /// A point whose intensity is modulated by a picture of directions.
@@ -180,6 +206,10 @@ impl GoniometricLight {
 
     pub(super) fn power(&self) -> LightPower {
         power(&self.intensity, self.solid_angle)
+    }
+
+    pub(super) fn bounds(&self, power: f32) -> EmitterBounds {
+        self.stand.bounds(power / (4.0 * PI), -1.0, 0.5 * PI)
     }
 
     /// Direction in light space of a point of the distribution's square; the inverse of the lookup.
@@ -253,5 +283,10 @@ impl ProjectionLight {
 
     pub(super) fn power(&self) -> LightPower {
         self.slide.integrals(self.flux())
+    }
+
+    pub(super) fn bounds(&self, power: f32) -> EmitterBounds {
+        let cos_corner = (1.0 + self.half.length_squared()).sqrt().recip();
+        self.stand.bounds(power / (4.0 * self.half.x * self.half.y), cos_corner, 1e-3)
     }
 }

@@ -1,7 +1,11 @@
 //! Which emitter to sample.
 
+use super::bounds::EmitterBounds;
 use super::contract::{Emitter, LightId};
+use super::tree::LightTree;
 use crate::math::distribution::AliasTable;
+use crate::math::float::ONE_MINUS_EPSILON;
+use crate::shape::ReferencePoint;
 
 /// An emitter and the probability with which it was chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,18 +17,19 @@ pub struct Chosen {
 }
 
 /// What the selection knows of one light.
-#[derive(Clone, Copy, Debug)]
-pub struct Candidate<'a> {
-    /// The light.
-    pub light: LightId,
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    pub(super) light: LightId,
     /// Whether it shines from infinity, without a place of its own.
-    pub infinite: bool,
-    /// Relative importance of each of its primitives; one entry for a light without a shape.
-    pub weights: &'a [f32],
+    pub(super) infinite: bool,
+    /// Power of each of its primitives, up to a common factor; one entry for a light without a shape.
+    pub(super) weights: Vec<f32>,
+    /// Where each of them is and shines; empty when the selection shall not depend on the place.
+    pub(super) bounds: Vec<EmitterBounds>,
 }
 
-/// Chooses emitters in constant time: lights at infinity with equal probability, all others together once as
-/// often as one of those, by power among themselves.
+/// Chooses emitters: lights at infinity with equal probability, all others together once as often as one of
+/// those; among themselves by power, in constant time, or by what they may contribute at a point, in logarithmic time.
 ///
 /// Power does not compare across the two groups: that of a sky grows with the size of the scene, and would
 /// starve every lamp of an interior.
@@ -34,6 +39,8 @@ pub struct LightSampler {
     emitters: Vec<Emitter>,
     /// `None` when no local emitter emits.
     local: Option<AliasTable>,
+    /// `None` when the choice does not depend on the place.
+    tree: Option<LightTree>,
     /// Where each light's entries begin.
     places: Vec<Place>,
 }
@@ -48,9 +55,10 @@ enum Place {
 
 impl LightSampler {
     /// A selection among `candidates`; weights that are not positive and finite are never chosen.
-    pub fn new<'a>(candidates: impl IntoIterator<Item = Candidate<'a>>) -> Self {
+    pub(super) fn new(candidates: impl IntoIterator<Item = Candidate>) -> Self {
         let mut sampler = Self::default();
         let mut weights = Vec::new();
+        let mut bounds = Vec::new();
         for candidate in candidates {
             let usable = |w: f32| if w > 0.0 && w.is_finite() { w } else { 0.0 };
             let slot = candidate.light.0 as usize;
@@ -65,12 +73,14 @@ impl LightSampler {
                 continue;
             }
             sampler.places[slot] = Place::Local(sampler.emitters.len() as u32);
-            for (prim, &w) in (0..).zip(candidate.weights) {
+            for (prim, &w) in (0..).zip(&candidate.weights) {
                 sampler.emitters.push(Emitter { light: candidate.light, prim });
                 weights.push(usable(w));
+                bounds.push(candidate.bounds.get(prim as usize).copied());
             }
         }
         sampler.local = AliasTable::new(&weights);
+        sampler.tree = LightTree::build(&bounds);
         sampler
     }
 
@@ -82,13 +92,43 @@ impl LightSampler {
         }
     }
 
-    /// Chooses an emitter with `u` in [0, 1); `None` when nothing emits.
+    /// Chooses an emitter with `u` in [0, 1), for no place in particular; `None` when nothing emits.
     pub fn sample(&self, u: f32) -> Option<Chosen> {
+        self.sample_group(u, |table, u| {
+            let d = table.sample(u);
+            Some(Chosen { emitter: self.emitters[d.index], probability: d.p })
+        })
+    }
+
+    /// Probability with which [`LightSampler::sample`] chooses `emitter`; zero for one that is never.
+    pub fn probability(&self, emitter: Emitter) -> f32 {
+        self.group_probability(emitter, |table, index| table.probability(index))
+    }
+
+    /// Chooses an emitter for the light that arrives at `from`; `None` when nothing reaches it. By power if the
+    /// selection does not know places.
+    pub fn sample_at(&self, from: &ReferencePoint, u: f32) -> Option<Chosen> {
+        let Some(tree) = &self.tree else { return self.sample(u) };
+        self.sample_group(u, |_, u| {
+            let leaf = tree.sample(from, u)?;
+            let emitter = self.emitters[leaf.index as usize];
+            (leaf.probability > 0.0).then_some(Chosen { emitter, probability: leaf.probability })
+        })
+    }
+
+    /// Probability with which [`LightSampler::sample_at`] chooses `emitter`; zero for one that is never.
+    pub fn probability_at(&self, from: &ReferencePoint, emitter: Emitter) -> f32 {
+        let Some(tree) = &self.tree else { return self.probability(emitter) };
+        self.group_probability(emitter, |_, index| tree.probability(from, index))
+    }
+
+    /// Chooses the group, then an emitter of it; `local` gets the stretched rest of `u`.
+    fn sample_group(&self, u: f32, local: impl FnOnce(&AliasTable, f32) -> Option<Chosen>) -> Option<Chosen> {
         let share = self.local_share();
         match &self.local {
             Some(table) if u < share || self.infinite.is_empty() => {
-                let d = table.sample((u / share).min(crate::math::float::ONE_MINUS_EPSILON));
-                Some(Chosen { emitter: self.emitters[d.index], probability: d.p * share })
+                let chosen = local(table, (u / share).min(ONE_MINUS_EPSILON))?;
+                Some(Chosen { probability: chosen.probability * share, ..chosen })
             }
             _ => {
                 let n = self.infinite.len();
@@ -100,14 +140,13 @@ impl LightSampler {
         }
     }
 
-    /// Probability with which `emitter` is chosen; zero for one that is never.
-    pub fn probability(&self, emitter: Emitter) -> f32 {
+    fn group_probability(&self, emitter: Emitter, local: impl FnOnce(&AliasTable, usize) -> f32) -> f32 {
         match self.places.get(emitter.light.0 as usize) {
             Some(Place::Infinite) => (1.0 - self.local_share()) / self.infinite.len() as f32,
-            Some(&Place::Local(first)) => self
-                .local
-                .as_ref()
-                .map_or(0.0, |t| t.probability(first as usize + emitter.prim as usize) * self.local_share()),
+            Some(&Place::Local(first)) => {
+                let index = first as usize + emitter.prim as usize;
+                self.local.as_ref().map_or(0.0, |table| local(table, index) * self.local_share())
+            }
             Some(Place::Nowhere) | None => 0.0,
         }
     }
@@ -132,8 +171,8 @@ impl LightSampler {
 mod tests {
     use super::*;
 
-    fn candidate(light: u32, infinite: bool, weights: &[f32]) -> Candidate<'_> {
-        Candidate { light: LightId(light), infinite, weights }
+    fn candidate(light: u32, infinite: bool, weights: &[f32]) -> Candidate {
+        Candidate { light: LightId(light), infinite, weights: weights.to_vec(), bounds: Vec::new() }
     }
 
     #[test]
