@@ -55,42 +55,23 @@ pub enum Sides {
 }
 
 impl Sides {
-    /// Chooses a side with the asked-for shares of `reflected` and `transmitted` power; `None` when nothing
-    /// of what is asked for is left.
-    pub(crate) fn choose(self, reflected: f32, transmitted: f32, uc: f32) -> Option<ChosenSide> {
-        let (r, t) = self.shares(reflected, transmitted)?;
-        let p = r / (r + t);
-        Some(if uc < p {
-            ChosenSide { side: Side::Reflection, probability: p }
-        } else {
-            ChosenSide { side: Side::Transmission, probability: t / (r + t) }
-        })
-    }
-
-    /// Probability of [`Sides::choose`] for `side`.
-    pub(crate) fn probability(self, side: Side, reflected: f32, transmitted: f32) -> f32 {
-        match (self.shares(reflected, transmitted), side) {
-            (Some((r, t)), Side::Reflection) => r / (r + t),
-            (Some((r, t)), Side::Transmission) => t / (r + t),
-            (None, _) => 0.0,
+    /// Probability of choosing reflection where the reflectance is `r`.
+    pub(crate) fn reflection_probability(self, r: f32) -> f32 {
+        match self {
+            Self::Both => r,
+            Self::Reflection => 1.0,
+            Self::Transmission => 0.0,
         }
     }
 
-    fn shares(self, reflected: f32, transmitted: f32) -> Option<(f32, f32)> {
-        let shares = match self {
-            Self::Both => (reflected, transmitted),
-            Self::Reflection => (reflected, 0.0),
-            Self::Transmission => (0.0, transmitted),
-        };
-        (shares.0 + shares.1 > 0.0).then_some(shares)
+    /// Power that goes to a side over the probability of choosing it, where `power` is that side's share:
+    /// one where the choice follows the power.
+    pub(crate) fn weight(self, power: f32) -> f32 {
+        match self {
+            Self::Both => 1.0,
+            Self::Reflection | Self::Transmission => power,
+        }
     }
-}
-
-/// A side with the probability of having chosen it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ChosenSide {
-    pub(crate) side: Side,
-    pub(crate) probability: f32,
 }
 
 /// How wide the sampled lobe is.

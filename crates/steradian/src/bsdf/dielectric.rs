@@ -3,7 +3,8 @@
 use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side, Sides};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
-use crate::optics::{TrowbridgeReitz, fresnel, refraction};
+use crate::optics::fresnel::{self, Crossing};
+use crate::optics::{TrowbridgeReitz, refraction};
 use crate::spectrum::Sampled;
 use crate::units::{Density, PdfSolidAngle, PerSteradian};
 
@@ -23,8 +24,10 @@ pub struct Dielectric {
 pub(crate) struct Evaluation {
     /// f [sr⁻¹].
     pub(crate) f: f32,
-    /// [sr⁻¹].
+    /// Density of drawing `wi` for `wo` [sr⁻¹].
     pub(crate) pdf: f32,
+    /// Density of drawing `wo` for `wi` [sr⁻¹], were the side certain.
+    pub(crate) reverse_pdf: f32,
 }
 
 /// A drawn direction, alike at every wavelength.
@@ -33,9 +36,11 @@ pub(crate) struct Draw {
     pub(crate) wi: LocalDir,
     /// f·|cosθi|/p.
     pub(crate) weight: f32,
-    /// Density [sr⁻¹]; `None` for a discrete direction.
-    pub(crate) pdf: Option<f32>,
+    /// The facet that was met; `None` for a discrete direction.
+    pub(crate) facet: Option<LocalDir>,
     pub(crate) side: Side,
+    /// Probability of having chosen the side.
+    pub(crate) probability: f32,
     pub(crate) eta: f32,
 }
 
@@ -54,7 +59,7 @@ impl Dielectric {
     /// A direction mirrored or refracted at a visible microfacet, chosen with `uc` by its reflectance.
     pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
         let drawn = self.draw(wo, uc, u, mode, Sides::Both)?;
-        let (density, lobe) = match drawn.pdf {
+        let (density, lobe) = match self.density(wo, &drawn) {
             Some(pdf) => (Density::SolidAngle(PdfSolidAngle(pdf)), Lobe::Glossy),
             None => (Density::Delta, Lobe::Specular),
         };
@@ -117,24 +122,37 @@ impl Dielectric {
             Side::Transmission if wo.z > 0.0 => self.eta,
             Side::Transmission => 1.0 / self.eta,
         };
-        let wm = LocalDir::new(*wi * eta + *wo)?;
-        let wm = if wm.z < 0.0 { -wm } else { wm };
-        let (om, im) = (wo.dot(*wm), wi.dot(*wm));
+        let half = *wi * eta + *wo;
+        let length2 = half.length_squared();
+        if length2 < f32::MIN_POSITIVE {
+            return None;
+        }
+        let wm = half * length2.sqrt().recip().copysign(half.z);
+        let (om, im) = (wo.dot(wm), wi.dot(wm));
         // Both directions must see the facet from the side on which they see the surface.
         if im * wi.z <= 0.0 || om * wo.z <= 0.0 {
             return None;
         }
         let r = fresnel::dielectric(om, self.eta);
-        let probability = sides.probability(side, r, 1.0 - r);
-        let d = self.roughness.d(wm);
-        let visible = d * self.roughness.g1_over_cos(wo);
+        let reflection_probability = sides.reflection_probability(r);
+        let d = self.roughness.d(LocalDir::new_unchecked(wm));
         let f = d * self.roughness.g_over_cosines(wo, wi);
+        let visible = |w| d * self.roughness.g1_over_cos(w);
         Some(match side {
-            Side::Reflection => Evaluation { f: 0.25 * f * r, pdf: 0.25 * visible * probability },
+            Side::Reflection => Evaluation {
+                f: 0.25 * f * r,
+                pdf: 0.25 * visible(wo) * reflection_probability,
+                reverse_pdf: 0.25 * visible(wi),
+            },
             Side::Transmission => {
                 let jacobian = refraction_jacobian(om, im, eta) * om.abs();
-                let scale = radiance_scale(mode, eta);
-                Evaluation { f: (1.0 - r) * f * jacobian * scale, pdf: visible * jacobian * probability }
+                let t = (1.0 - r) * radiance_scale(mode, eta);
+                Evaluation {
+                    f: t * f * jacobian,
+                    pdf: visible(wo) * jacobian * (1.0 - reflection_probability),
+                    // Seen from the other side, the index and so the Jacobian's root are inverted.
+                    reverse_pdf: visible(wi) * jacobian / (eta * eta),
+                }
             }
         })
     }
@@ -146,70 +164,57 @@ impl Dielectric {
             return None;
         }
         if self.is_specular() {
-            return self.draw_specular(wo, uc, mode, sides);
+            return self.draw_at(wo, LocalDir::Z, uc, mode, sides);
         }
         let wm = self.roughness.sample_visible(wo, u);
-        let om = wo.dot(*wm);
-        let r = fresnel::dielectric(om, self.eta);
-        let chosen = sides.choose(r, 1.0 - r, uc)?;
-        // D and the cosines cancel: f cosθi / p = R G / (G1(wo) P), and likewise with 1 − R.
-        match chosen.side {
-            Side::Reflection => {
-                let wi = LocalDir::new_unchecked(refraction::reflect(*wo, *wm));
-                if !wo.same_hemisphere(wi) {
-                    return None;
-                }
-                Some(Draw {
-                    wi,
-                    weight: r / chosen.probability * self.roughness.g_over_g1(wo, wi),
-                    pdf: Some(
-                        0.25 * self.roughness.d(wm) * self.roughness.g1_over_cos(wo) * chosen.probability,
-                    ),
-                    side: Side::Reflection,
-                    eta: 1.0,
-                })
-            }
-            Side::Transmission => {
-                let refracted = refraction::refract(*wo, *wm, self.eta)?;
-                let wi = LocalDir::new_unchecked(refracted.w);
-                if wo.z * wi.z >= 0.0 {
-                    return None;
-                }
-                let jacobian = refraction_jacobian(om, wi.dot(*wm), refracted.eta);
-                let share = (1.0 - r) / chosen.probability * self.roughness.g_over_g1(wo, wi);
-                Some(Draw {
-                    wi,
-                    weight: share * radiance_scale(mode, refracted.eta),
-                    pdf: Some(self.roughness.visible_pdf(wo, wm) * jacobian * chosen.probability),
-                    side: Side::Transmission,
-                    eta: refracted.eta,
-                })
-            }
+        let mut drawn = self.draw_at(wo, wm, uc, mode, sides)?;
+        if (wo.z * drawn.wi.z > 0.0) != (drawn.side == Side::Reflection) {
+            return None;
         }
+        // D and the cosines cancel: f cosθi / p = R G / (G1(wo) P), and likewise with 1 − R.
+        drawn.weight *= self.roughness.g_over_g1(wo, drawn.wi);
+        drawn.facet = Some(wm);
+        Some(drawn)
     }
 
-    fn draw_specular(&self, wo: LocalDir, uc: f32, mode: Mode, sides: Sides) -> Option<Draw> {
-        let r = fresnel::dielectric(wo.z, self.eta);
-        let chosen = sides.choose(r, 1.0 - r, uc)?;
-        match chosen.side {
-            Side::Reflection => Some(Draw {
-                wi: LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z)),
-                weight: r / chosen.probability,
-                pdf: None,
-                side: Side::Reflection,
-                eta: 1.0,
-            }),
+    /// The density of what [`Dielectric::draw`] drew for `wo`; `None` for a discrete direction.
+    #[inline]
+    pub(crate) fn density(&self, wo: LocalDir, drawn: &Draw) -> Option<f32> {
+        let wm = drawn.facet?;
+        let visible = self.roughness.d(wm) * self.roughness.g1_over_cos(wo) * drawn.probability;
+        Some(match drawn.side {
+            Side::Reflection => 0.25 * visible,
             Side::Transmission => {
-                let refracted = refraction::refract(*wo, Vec3::Z, self.eta)?;
-                Some(Draw {
-                    wi: LocalDir::new_unchecked(refracted.w),
-                    weight: (1.0 - r) / chosen.probability * radiance_scale(mode, refracted.eta),
-                    pdf: None,
-                    side: Side::Transmission,
-                    eta: refracted.eta,
-                })
+                let om = wo.dot(*wm);
+                visible * om.abs() * refraction_jacobian(om, drawn.wi.dot(*wm), drawn.eta)
             }
+        })
+    }
+
+    /// A mirrored or refracted direction at the facet with normal `wm`, without shadowing.
+    #[inline]
+    fn draw_at(&self, wo: LocalDir, wm: LocalDir, uc: f32, mode: Mode, sides: Sides) -> Option<Draw> {
+        let crossing = Crossing::new(wo.dot(*wm), self.eta);
+        let r = crossing.reflectance;
+        let p = sides.reflection_probability(r);
+        if uc < p {
+            return (r > 0.0).then(|| Draw {
+                wi: LocalDir::new_unchecked(refraction::reflect(*wo, *wm)),
+                weight: sides.weight(r),
+                facet: None,
+                side: Side::Reflection,
+                probability: p,
+                eta: 1.0,
+            });
         }
+        Some(Draw {
+            wi: LocalDir::new_unchecked(crossing.refract(*wo, *wm)?),
+            weight: sides.weight(1.0 - r) * radiance_scale(mode, crossing.eta),
+            facet: None,
+            side: Side::Transmission,
+            probability: 1.0 - p,
+            eta: crossing.eta,
+        })
     }
 }
 

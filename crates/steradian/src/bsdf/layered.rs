@@ -6,7 +6,7 @@
 
 use super::conductor::Conductor;
 use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side, Sides};
-use super::dielectric::{Dielectric, Draw};
+use super::dielectric::{Dielectric, Draw, Evaluation};
 use super::diffuse::Diffuse;
 use super::specimen::{Claims, Specimen};
 use crate::math::hash::{self, Pcg32};
@@ -155,7 +155,7 @@ impl<B: Base> Layered<B> {
         if !self.scatters_below() {
             return f;
         }
-        let mut rng = self.rng(Stream::Eval, &[wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
+        let mut rng = self.rng(Stream::Eval, [wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
         let scale = 1.0 / f32::from(self.coat.samples);
         for _ in 0..self.coat.samples {
             let (uc, u) = (rng.next_f32(), next_2d(&mut rng));
@@ -178,7 +178,7 @@ impl<B: Base> Layered<B> {
         let Some((wo, wi)) = upwards(wo, wi) else { return PdfSolidAngle(0.0) };
         let interface = &self.coat.interface;
         let surface = interface.evaluate(wo, wi, Mode::Importance, Sides::Reflection).map_or(0.0, |e| e.pdf);
-        let mut rng = self.rng(Stream::Pdf, &[wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
+        let mut rng = self.rng(Stream::Pdf, [wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
         let mut below = 0.0;
         for _ in 0..self.coat.samples {
             below += self.first_passage_pdf(wo, wi, &mut rng);
@@ -224,8 +224,10 @@ impl<B: Base> Layered<B> {
         !(self.coat.interface.is_specular() && self.base.is_specular()) || self.coat.has_medium()
     }
 
-    fn rng(&self, stream: Stream, key: &[f32]) -> Pcg32 {
-        Pcg32::new(hash::combine(self.seed, hash::hash_floats(key)), stream as u64)
+    fn rng(&self, stream: Stream, [a, b, c, d, e, f]: [f32; 6]) -> Pcg32 {
+        let pair = |x: f32, y: f32| u64::from(x.to_bits()) << 32 | u64::from(y.to_bits());
+        let key = [pair(a, b), pair(c, d), pair(e, f)];
+        Pcg32::new(key.into_iter().fold(self.seed, hash::combine), stream as u64)
     }
 
     /// One walk from `entry` that is connected to `exit`, a transmission drawn backwards from `wi`, at each
@@ -246,11 +248,12 @@ impl<B: Base> Layered<B> {
         let leg = -exit.wi;
         let leg_weight = exit.weight * coat.transmittance(coat.thickness, leg);
         // The heuristic's share of the connection, whose competitor draws it with `other`; one where the coat is smooth.
-        let connection_share = |other: f32| exit.pdf.map_or(1.0, |p| power_heuristic(p, other));
+        let exit_pdf = interface.density(wi, exit);
+        let connection_share = |other: f32| exit_pdf.map_or(1.0, |p| power_heuristic(p, other));
         let through_coat = |w: LocalDir, depth: f32, drawn: Option<f32>| {
             // A smooth coat evaluates to nothing.
             let Some(e) = interface.evaluate(-w, wi, mode, Sides::Transmission) else { return 0.0 };
-            let share = drawn.map_or(1.0, |p| power_heuristic(p, self.competing_pdf(w, wi, e.pdf)));
+            let share = drawn.map_or(1.0, |p| power_heuristic(p, self.competing_pdf(&e)));
             e.f * share * coat.transmittance(depth, w)
         };
 
@@ -313,16 +316,12 @@ impl<B: Base> Layered<B> {
         f
     }
 
-    /// The density that weighs a step `w` towards the coat, where `through` is that of leaving into `wi` from it.
-    fn competing_pdf(&self, w: LocalDir, wi: LocalDir, through: f32) -> f32 {
+    /// The density against which a step towards the coat is weighed that then leaves by `through`.
+    fn competing_pdf(&self, through: &Evaluation) -> f32 {
         match self.coat.weights {
-            // What the connection was drawn with: from `wi`, backwards.
-            ExitWeights::Consistent => self
-                .coat
-                .interface
-                .evaluate(wi, -w, Mode::Importance, Sides::Transmission)
-                .map_or(0.0, |e| e.pdf),
-            ExitWeights::Pbrt4 => through,
+            // What the connection was drawn with: from outside, backwards.
+            ExitWeights::Consistent => through.reverse_pdf,
+            ExitWeights::Pbrt4 => through.pdf,
         }
     }
 
@@ -331,11 +330,11 @@ impl<B: Base> Layered<B> {
         let coat = &self.coat;
         let first = coat.interface.draw(wo, uc, u, mode, Sides::Both)?;
         let mut walked =
-            Walked { wi: first.wi, weight: Sampled::splat(first.weight), specular: first.pdf.is_none() };
+            Walked { wi: first.wi, weight: Sampled::splat(first.weight), specular: first.facet.is_none() };
         if first.side == Side::Reflection {
             return Some(walked);
         }
-        let mut rng = self.rng(Stream::Sample, &[wo.x, wo.y, wo.z, uc, u.x, u.y]);
+        let mut rng = self.rng(Stream::Sample, [wo.x, wo.y, wo.z, uc, u.x, u.y]);
         let phase = HenyeyGreenstein::new(coat.g);
         let mut z = coat.thickness;
         for depth in 0..coat.max_depth {
@@ -371,7 +370,7 @@ impl<B: Base> Layered<B> {
             } else {
                 let drawn = coat.interface.draw(-w, uc, u, mode, Sides::Both)?;
                 walked.weight = walked.weight * drawn.weight;
-                walked.specular &= drawn.pdf.is_none();
+                walked.specular &= drawn.facet.is_none();
                 walked.wi = drawn.wi;
                 if drawn.side == Side::Transmission {
                     return (drawn.wi.z > 0.0).then_some(walked);
@@ -390,7 +389,7 @@ impl<B: Base> Layered<B> {
         };
         let (Some(entry), Some(exit)) = (enter(wo), enter(wi)) else { return 0.0 };
         let through_base = self.base.pdf(-entry.wi, -exit.wi).0;
-        let Some(exit_pdf) = exit.pdf else { return through_base };
+        let Some(exit_pdf) = interface.density(wi, &exit) else { return through_base };
         let Some(bounce) = self.base.sample(-entry.wi, next_2d(rng)) else { return 0.0 };
         let through_coat =
             interface.evaluate(-bounce.wi, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf);

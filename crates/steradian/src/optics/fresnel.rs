@@ -2,6 +2,7 @@
 //!
 //! `eta` is the relative index ηt/ηi, with the i side above the interface (positive cosine).
 
+use crate::math::Vec3;
 use crate::math::float::safe_sqrt;
 
 /// Reflectances of power for the two linear polarisations.
@@ -40,7 +41,51 @@ pub fn dielectric_polarized(cos_theta_i: f32, eta: f32) -> Polarized {
 /// Reflectance of a dielectric interface for unpolarised light, B (2.12); domain as
 /// [`dielectric_polarized`]. The transmittance of power is 1 − R.
 pub fn dielectric(cos_theta_i: f32, eta: f32) -> f32 {
-    dielectric_polarized(cos_theta_i, eta).unpolarized()
+    Crossing::new(cos_theta_i, eta).reflectance
+}
+
+/// What happens to unpolarised light of one direction at a dielectric interface: Fresnel's and Snell's law,
+/// which share their costly terms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Share of the power that is reflected; one for total reflection.
+    pub reflectance: f32,
+    /// Index on the far side over the index on the side that the direction lies on.
+    pub eta: f32,
+    /// η |cosθt|; zero for total reflection.
+    eta_cos_theta_t: f32,
+}
+
+impl Crossing {
+    /// The crossing at the cosine to the normal; domain as [`dielectric_polarized`].
+    #[inline]
+    pub fn new(cos_theta_i: f32, eta: f32) -> Self {
+        let eta = if cos_theta_i < 0.0 { 1.0 / eta } else { eta };
+        let ci = cos_theta_i.abs().min(1.0);
+        let eta2 = eta * eta;
+        let eta2_cos2_theta_t = eta2 - (1.0 - ci * ci);
+        if eta2_cos2_theta_t <= 0.0 {
+            return Self { reflectance: 1.0, eta, eta_cos_theta_t: 0.0 };
+        }
+        // r_s = (ci − a)/(ci + a), r_p = (b − a)/(b + a), over their common denominator.
+        let a = eta2_cos2_theta_t.sqrt();
+        let b = eta2 * ci;
+        let s = (ci - a) * (b + a);
+        let p = (b - a) * (ci + a);
+        let d = (ci + a) * (b + a);
+        Self { reflectance: 0.5 * (s * s + p * p) / (d * d), eta, eta_cos_theta_t: a }
+    }
+
+    /// The refracted unit direction of `w`, whose cosine to the unit normal `n` the crossing was made for,
+    /// B (2.5)–(2.7); `None` for total reflection. Both point away from the interface.
+    #[inline]
+    pub fn refract(&self, w: Vec3, n: Vec3) -> Option<Vec3> {
+        if self.eta_cos_theta_t == 0.0 {
+            return None;
+        }
+        let cos = w.dot(n);
+        Some((n * (cos - self.eta_cos_theta_t.copysign(cos)) - w) * self.eta.recip())
+    }
 }
 
 /// Reflectances of an absorbing medium with relative complex index eta + j k, B (2.8)–(2.11), seen from a

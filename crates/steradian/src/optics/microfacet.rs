@@ -117,14 +117,14 @@ impl TrowbridgeReitz {
     pub fn sample_visible(&self, w: LocalDir, u: Vec2) -> LocalDir {
         let w = if w.z < 0.0 { -*w } else { *w };
         let stretched = Vec3::new(w.x * self.alpha_x, w.y * self.alpha_y, w.z);
-        let stretched = stretched / stretched.length();
+        let stretched = stretched * stretched.length_recip();
         let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
         let r = (1.0 - z * z).max(0.0).sqrt();
         let (sin_phi, cos_phi) = (TAU * u.x).sin_cos();
         let h = Vec3::new(r * cos_phi, r * sin_phi, z) + stretched;
         // z ≥ 0 but for rounding; the floor keeps a normal at the rim of the hemisphere usable.
         let wm = Vec3::new(h.x * self.alpha_x, h.y * self.alpha_y, h.z.max(1e-6));
-        LocalDir::new_unchecked(wm / wm.length())
+        LocalDir::new_unchecked(wm * wm.length_recip())
     }
 }
 

@@ -1,5 +1,6 @@
 //! Mirror and refracted directions. All directions point away from the interface.
 
+use super::fresnel::Crossing;
 use crate::math::Vec3;
 
 /// The mirror direction of `w` about the unit normal `n`: 2 (n·w) n − w, B (2.4).
@@ -22,14 +23,8 @@ pub struct Refracted {
 /// `eta` is the index on the side opposite to the unit normal `n` over the index on its own side; `w` may
 /// lie on either side.
 pub fn refract(w: Vec3, n: Vec3, eta: f32) -> Option<Refracted> {
-    let cos = n.dot(w);
-    let (n, cos, eta) = if cos < 0.0 { (-n, -cos, 1.0 / eta) } else { (n, cos, eta) };
-    let sin2_theta_t = (1.0 - cos * cos).max(0.0) / (eta * eta);
-    if sin2_theta_t >= 1.0 {
-        return None;
-    }
-    let cos_theta_t = (1.0 - sin2_theta_t).sqrt();
-    Some(Refracted { w: n * (cos / eta - cos_theta_t) - w / eta, eta })
+    let crossing = Crossing::new(n.dot(w), eta);
+    Some(Refracted { w: crossing.refract(w, n)?, eta: crossing.eta })
 }
 
 #[cfg(test)]

@@ -10,8 +10,8 @@ use super::specimen::{Claims, Specimen};
 use super::{Bsdf, BsdfSample, Mode};
 use crate::math::hash::{self, Pcg32};
 use crate::math::{LocalDir, Vec2, Vec3, warp};
-use crate::spectrum::LANES;
-use crate::units::Density;
+use crate::spectrum::{LANES, Sampled};
+use crate::units::{Density, PdfSolidAngle, PerSteradian};
 use statistics::{ChiSquared, Moments};
 
 /// A law of scattering.
@@ -89,6 +89,37 @@ impl Finding {
     }
 }
 
+/// What can be examined: a [`Bsdf`], or anything that scatters like one.
+pub trait Scatterer: Copy {
+    /// f [sr⁻¹], without the cosine and without discrete directions.
+    fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian>;
+    /// Density of `wi` among the continuous directions drawn for `wo`.
+    fn pdf(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> PdfSolidAngle;
+    /// Draws `wi` for `wo`.
+    fn sample(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<BsdfSample>;
+    /// The same function with other random walks, where it is estimated by such.
+    #[must_use]
+    fn with_seed(self, seed: u64) -> Self;
+}
+
+impl Scatterer for Bsdf {
+    fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
+        Self::eval(self, wo, wi, mode)
+    }
+
+    fn pdf(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> PdfSolidAngle {
+        Self::pdf(self, wo, wi, mode)
+    }
+
+    fn sample(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
+        Self::sample(self, wo, uc, u, mode)
+    }
+
+    fn with_seed(self, seed: u64) -> Self {
+        Self::with_seed(self, seed)
+    }
+}
+
 /// How thoroughly to examine.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
@@ -110,7 +141,7 @@ impl Default for Effort {
 }
 
 /// Examines every law that the specimen claims, for directions above and below the surface.
-pub fn examine(specimen: &Specimen<Bsdf>, effort: &Effort) -> Vec<Finding> {
+pub fn examine<B: Scatterer>(specimen: &Specimen<B>, effort: &Effort) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (theta, phi) in [(0.0_f32, 0.0_f32), (65.0, 250.0), (140.0, 120.0)] {
         let wo = warp::spherical_direction(theta.to_radians(), phi.to_radians());
@@ -135,7 +166,7 @@ pub struct Albedo {
 }
 
 /// ρ + τ for light that arrives from `wi`, by `samples` samples: the ratio of scattered to incident power, B (2.14), (2.15).
-pub fn albedo(bsdf: &Bsdf, wi: LocalDir, samples: u32, seed: u64) -> Albedo {
+pub fn albedo<B: Scatterer>(bsdf: &B, wi: LocalDir, samples: u32, seed: u64) -> Albedo {
     let mut rng = Pcg32::new(seed, 17);
     let mut moments = Moments::default();
     for _ in 0..samples {
@@ -145,8 +176,8 @@ pub fn albedo(bsdf: &Bsdf, wi: LocalDir, samples: u32, seed: u64) -> Albedo {
 }
 
 /// One specimen under one direction.
-struct Bench<'a> {
-    bsdf: Bsdf,
+struct Bench<'a, B> {
+    bsdf: B,
     claims: Claims,
     effort: &'a Effort,
     wo: LocalDir,
@@ -158,7 +189,7 @@ struct Quadrature {
     power: Moments,
 }
 
-impl Bench<'_> {
+impl<B: Scatterer> Bench<'_, B> {
     fn examine_sampling(&self, mode: Mode, findings: &mut Vec<Finding>) {
         let mut find = |law, evidence| findings.push(Finding { law, wo: self.wo, mode, evidence });
         let n = f64::from(self.effort.samples);
@@ -295,7 +326,7 @@ impl Bench<'_> {
 }
 
 /// Values at and near the horizon, from both sides.
-fn examine_grazing(specimen: &Specimen<Bsdf>, effort: &Effort, findings: &mut Vec<Finding>) {
+fn examine_grazing<B: Scatterer>(specimen: &Specimen<B>, effort: &Effort, findings: &mut Vec<Finding>) {
     let mut rng = Pcg32::new(effort.seed, 23);
     let bsdf = &specimen.bsdf;
     for mode in [Mode::Radiance, Mode::Importance] {
@@ -334,7 +365,7 @@ fn examine_grazing(specimen: &Specimen<Bsdf>, effort: &Effort, findings: &mut Ve
     }
 }
 
-fn draw(bsdf: &Bsdf, wo: LocalDir, mode: Mode, rng: &mut Pcg32) -> Option<BsdfSample> {
+fn draw<B: Scatterer>(bsdf: &B, wo: LocalDir, mode: Mode, rng: &mut Pcg32) -> Option<BsdfSample> {
     let (uc, u) = (rng.next_f32(), Vec2::new(rng.next_f32(), rng.next_f32()));
     bsdf.sample(wo, uc, u, mode)
 }
