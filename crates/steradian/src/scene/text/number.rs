@@ -113,15 +113,21 @@ pub(super) enum IntegerError {
 /// Reads the integer at the start of `text`: a sign and digits.
 pub(super) fn scan_i32(text: &[u8]) -> Result<Scanned<i32>, IntegerError> {
     let sign = usize::from(matches!(text.first(), Some(b'-' | b'+')));
-    let mut value = 0_i64;
+    let mut magnitude = 0_u64;
     let mut i = sign;
     while let Some(d) = digit(text, i) {
-        value = (value * 10 + d as i64).min(1 << 40);
+        magnitude = magnitude.wrapping_mul(10).wrapping_add(d);
         i += 1;
     }
     if i == sign {
         return Err(IntegerError::NotAnInteger);
     }
+    if i - sign > MAX_DIGITS {
+        // The sum may have wrapped around: sum again with saturation.
+        magnitude =
+            text[sign..i].iter().fold(0_u64, |m, b| m.saturating_mul(10).saturating_add(u64::from(b - b'0')));
+    }
+    let value = i64::try_from(magnitude).map_err(|_| IntegerError::OutOfRange)?;
     let value = if text.first() == Some(&b'-') { -value } else { value };
     let value = i32::try_from(value).map_err(|_| IntegerError::OutOfRange)?;
     Ok(Scanned { value, len: i })
@@ -197,7 +203,8 @@ mod tests {
         assert_eq!(scan("2147483647"), Ok(i32::MAX));
         assert_eq!(scan("-2147483648"), Ok(i32::MIN));
         assert_eq!(scan("+7"), Ok(7));
-        for big in ["2147483648", "-2147483649", "99999999999999999999999999"] {
+        assert_eq!(scan("-0000000000000000000000042"), Ok(-42));
+        for big in ["2147483648", "-2147483649", "99999999999999999999999999", "18446744073709551617"] {
             assert_eq!(scan(big), Err(IntegerError::OutOfRange), "{big}");
         }
         assert_eq!(scan("-"), Err(IntegerError::NotAnInteger));
