@@ -32,22 +32,26 @@ pub(crate) fn check(src: &Path) -> Result<String, String> {
     let by_module: BTreeMap<Vec<String>, usize> =
         files.iter().enumerate().map(|(i, f)| (f.module.clone(), i)).collect();
     let mut problems = String::new();
-    for i in 0..files.len() {
-        let source = fs::read_to_string(src.join(&files[i].path)).map_err(|e| e.to_string())?;
-        check_length(&files[i], &source, &mut problems);
-        check_variants(&files[i], &source, &mut problems);
+    let mut imports = vec![Vec::new(); files.len()];
+    for (i, (file, imports)) in files.iter().zip(&mut imports).enumerate() {
+        let source = fs::read_to_string(src.join(&file.path)).map_err(|e| e.to_string())?;
+        check_length(file, &source, &mut problems);
+        check_variants(file, &source, &mut problems);
         let children = declared_modules(&source);
-        for path in mentioned_paths(&source, &files[i].module, &children) {
-            check_direction(&files[i], &path, &order, &mut problems);
+        for path in mentioned_paths(&source, &file.module, &children) {
+            check_direction(file, &path, &order, &mut problems);
             // The longest prefix that is a file: what follows are items in it.
             let target = (1..=path.len()).rev().find_map(|n| by_module.get(&path[..n]));
             if let Some(&target) = target
                 && target != i
-                && !files[i].imports.contains(&target)
+                && !imports.contains(&target)
             {
-                files[i].imports.push(target);
+                imports.push(target);
             }
         }
+    }
+    for (file, imports) in files.iter_mut().zip(imports) {
+        file.imports = imports;
     }
     for cycle in cycles(&files) {
         let names: Vec<_> = cycle.iter().map(|&i| files[i].path.display().to_string()).collect();

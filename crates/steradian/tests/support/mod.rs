@@ -9,18 +9,18 @@ use steradian::scene::import::pbrt::{Imported, Input, import};
 use steradian::scene::{Disk, FileSystem, RenderJob};
 
 /// Everything before `WorldBegin` but camera and integrator: 8 × 8 pixels, box filter.
-pub const SMALL_FILM: &str = r#"
+pub(crate) const SMALL_FILM: &str = r#"
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8 "bool savefp16" false
 PixelFilter "box"
 "#;
 
 /// Compiles a scene that must be free of errors.
-pub fn job(text: &str) -> RenderJob {
+pub(crate) fn job(text: &str) -> RenderJob {
     job_with(text, &Disk)
 }
 
 /// The same with other files than those on disk.
-pub fn job_with(text: &str, files: &dyn FileSystem) -> RenderJob {
+pub(crate) fn job_with(text: &str, files: &dyn FileSystem) -> RenderJob {
     let input = Input::Text { name: "test.pbrt", bytes: text.as_bytes(), base: Path::new(".") };
     let Imported { scene, sources, mut diagnostics } = import(&[input], files);
     let job = scene.and_then(|d| steradian::scene::compile(d, files, &mut diagnostics));
@@ -29,18 +29,18 @@ pub fn job_with(text: &str, files: &dyn FileSystem) -> RenderJob {
 }
 
 /// Renders with the given seed.
-pub fn render_seeded(job: &mut RenderJob, seed: u64) -> Frame {
+pub(crate) fn render_seeded(job: &mut RenderJob, seed: u64) -> Frame {
     job.sampling.seed = seed;
     render(job, &RenderOptions::default())
 }
 
 /// Renders with the given options.
-pub fn render(job: &RenderJob, options: &RenderOptions) -> Frame {
+pub(crate) fn render(job: &RenderJob, options: &RenderOptions) -> Frame {
     steradian::render::render(job, options, &Silent, &CancelToken::new()).expect("the film is valid").frame
 }
 
 /// Mean luminance of a linear sRGB frame [film units].
-pub fn mean_luminance(frame: &Frame) -> f64 {
+pub(crate) fn mean_luminance(frame: &Frame) -> f64 {
     let channel = |name: &str| {
         let values = frame.channel(name).unwrap_or_else(|| panic!("no channel {name}"));
         values.iter().map(|&v| f64::from(v)).sum::<f64>() / values.len() as f64
@@ -50,18 +50,18 @@ pub fn mean_luminance(frame: &Frame) -> f64 {
 
 /// Judges an unbiased estimate against its exact value by independent randomisations.
 #[derive(Debug)]
-pub struct Judgement {
-    pub mean: f64,
-    pub standard_error: f64,
+pub(crate) struct Judgement {
+    pub(crate) mean: f64,
+    pub(crate) standard_error: f64,
 }
 
 /// Randomisations per law.
-pub const RUNS: u64 = 16;
+pub(crate) const RUNS: u64 = 16;
 /// Student's t for a two-sided test at α = 0.001 with 15 degrees of freedom.
 const T_15: f64 = 4.0728;
 
 /// Renders the scene under [`RUNS`] seeds.
-pub fn judge(text: &str) -> Judgement {
+pub(crate) fn judge(text: &str) -> Judgement {
     let mut job = job(text);
     let values: Vec<f64> = (0..RUNS).map(|seed| mean_luminance(&render_seeded(&mut job, seed + 1))).collect();
     let n = values.len() as f64;
@@ -74,7 +74,7 @@ pub fn judge(text: &str) -> Judgement {
 ///
 /// A t test at α = 0.001 that can detect a bias of `detectable` (relative): when the noise is larger, the test fails as too
 /// weak instead of passing. f32 arithmetic is granted 2·10⁻⁵.
-pub fn assert_luminance(text: &str, expected: f64, detectable: f64) {
+pub(crate) fn assert_luminance(text: &str, expected: f64, detectable: f64) {
     let j = judge(text);
     let margin = T_15 * j.standard_error;
     assert!(

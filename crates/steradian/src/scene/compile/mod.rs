@@ -82,7 +82,8 @@ pub fn compile(
     if diagnostics.has_errors() {
         return None;
     }
-    let (_, radius) = accel.bounds().bounding_sphere();
+    // Without geometry a sky has no surface to light, but is seen all the same.
+    let radius = Some(accel.bounds().bounding_sphere().1).filter(|r| *r > 0.0).unwrap_or(1.0);
     let light_sampler = LightSampler::by_power(&lights, &set.shapes, radius);
     let options = &desc.options;
     let jitter = |off: bool| if off { Jitter::Off } else { Jitter::On };
