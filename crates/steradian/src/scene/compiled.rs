@@ -104,7 +104,7 @@ impl Scene {
         wi: Dir,
         hit: &SurfacePoint,
     ) -> PdfSolidAngle {
-        let p = self.light_sampler.probability(e);
+        let p = self.light_sampler.probability_at(from, e);
         PdfSolidAngle(p * self.lights[e.light.0 as usize].hit_density(from, &self.shapes, e.prim, wi, hit).0)
     }
 
@@ -124,7 +124,7 @@ impl Scene {
         PdfSolidAngle(p * self.lights[light.0 as usize].escape_density(direction).0)
     }
 
-    /// One light, chosen by power, and a direction to it.
+    /// One light, chosen at random, and a direction to it.
     pub fn sample_light(
         &self,
         from: &ReferencePoint,
@@ -132,7 +132,7 @@ impl Scene {
         u: Vec2,
         w: &Wavelengths,
     ) -> Option<SceneLightSample> {
-        let chosen = self.light_sampler.sample(u_light)?;
+        let chosen = self.light_sampler.sample_at(from, u_light)?;
         let light = &self.lights[chosen.emitter.light.0 as usize];
         let s = light.sample(from, &self.shapes, chosen.emitter.prim, u, w)?;
         let (radiance, density) = match s.density {

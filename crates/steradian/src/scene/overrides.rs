@@ -1,6 +1,6 @@
 //! Settings given outside the scene, which win over the scene's own.
 
-use super::desc::{IntegratorKind, LightSamplerKind, PathDesc, SamplerKind, SceneDesc};
+use super::desc::{IntegratorKind, PathDesc, SamplerKind, SceneDesc};
 use super::diagnostic::nearest;
 
 /// What a user may change without touching the scene; `None` leaves the scene's value.
@@ -91,7 +91,7 @@ impl Overrides {
             desc.integrator.kind = IntegratorKind::Path(PathDesc {
                 max_depth: max_depth(&mut desc.integrator.kind).map_or(DEFAULT_DEPTH, |d| *d),
                 regularize: false,
-                light_sampler: LightSamplerKind::Power,
+                light_sampler: None,
             });
         }
         if let (Some(depth), Some(field)) = (self.max_depth, max_depth(&mut desc.integrator.kind)) {

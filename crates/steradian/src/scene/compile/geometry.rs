@@ -1,13 +1,15 @@
 //! From the statement of one shape to geometry in render space.
 
 use crate::math::Transform;
-use crate::scene::desc::{FileRef, MeshDesc, ShapeKind};
+use crate::scene::desc::{CurveBasis, CurveDesc, CurveKind, FileRef, MeshDesc, ShapeKind};
 use crate::scene::diagnostic::Diagnostics;
 use crate::scene::files::FileSystem;
 use crate::scene::import::ply;
 use crate::scene::source::Span;
+use crate::shape::curve::{Basis, Degree, Profile};
 use crate::shape::{
-    BilinearMesh, Cylinder, Disk, MeshData, Orientation, PatchData, Shape, ShapeError, Sphere, TriangleMesh,
+    BilinearMesh, Curve, CurveData, Cylinder, Disk, MeshData, Orientation, PatchData, Shape, ShapeError,
+    Sphere, TriangleMesh, loop_subdivision,
 };
 
 /// The shapes that one statement makes; none when it is faulty, which is reported.
@@ -43,7 +45,15 @@ pub(super) fn build(
                 .map(|s| vec![Shape::Cylinder(Box::new(s))])
                 .map_err(text)
         }
-        ShapeKind::Curve(_) | ShapeKind::LoopSubdivision { .. } => Err("unsupported shape".to_owned()),
+        ShapeKind::Curve(curve) => {
+            Curve::new(curve_data(curve), t, orientation).map(|c| vec![Shape::Curve(c)]).map_err(text)
+        }
+        ShapeKind::LoopSubdivision { levels, p, indices } => {
+            loop_subdivision::refine(&p, indices.as_chunks::<3>().0, levels)
+                .and_then(|refined| TriangleMesh::new(refined, t, orientation))
+                .map(|m| vec![Shape::Mesh(m)])
+                .map_err(text)
+        }
     };
     built.unwrap_or_else(|message| {
         diagnostics.error(span, message);
@@ -70,6 +80,25 @@ fn patches(mesh: MeshDesc) -> PatchData {
         normals: mesh.n,
         uvs: mesh.uv,
         face_indices: face_numbers(mesh.face_indices),
+    }
+}
+
+fn curve_data(desc: CurveDesc) -> CurveData {
+    CurveData {
+        points: desc.p,
+        basis: match desc.basis {
+            CurveBasis::Bezier => Basis::Bezier,
+            CurveBasis::BSpline => Basis::BSpline,
+        },
+        degree: if desc.degree == 2 { Degree::Quadratic } else { Degree::Cubic },
+        profile: match desc.kind {
+            CurveKind::Flat => Profile::Flat,
+            CurveKind::Cylinder => Profile::Cylinder,
+            CurveKind::Ribbon => Profile::Ribbon,
+        },
+        normals: desc.n,
+        widths: desc.width,
+        split_depth: desc.split_depth,
     }
 }
 

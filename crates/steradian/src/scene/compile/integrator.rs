@@ -1,6 +1,7 @@
 //! Which integrator renders what the scene asks for, and what is said about it.
 
-use crate::scene::desc::{IntegratorDesc, IntegratorKind};
+use crate::light::Selection;
+use crate::scene::desc::{IntegratorDesc, IntegratorKind, LightSamplerKind};
 use crate::scene::diagnostic::{Diagnostic, Diagnostics};
 use crate::scene::job::PathSettings;
 
@@ -57,6 +58,20 @@ pub(super) fn choose(
                 .with_help("\"path\" renders the scene's own lights"),
             );
             PathSettings { max_depth: 0, regularize: false }
+        }
+    }
+}
+
+/// How lights are chosen: by power, unless the scene asks for something else.
+pub(super) fn selection(desc: &IntegratorDesc, diagnostics: &mut Diagnostics) -> Selection {
+    let (IntegratorKind::Path(p) | IntegratorKind::VolPath(p)) = desc.kind else { return Selection::Power };
+    match p.light_sampler {
+        None | Some(LightSamplerKind::Power) => Selection::Power,
+        Some(LightSamplerKind::Uniform) => Selection::Uniform,
+        Some(LightSamplerKind::Bvh) => Selection::Position,
+        Some(LightSamplerKind::Exhaustive) => {
+            diagnostics.notice(desc.span, "light sampler \"exhaustive\" is rendered with \"bvh\"");
+            Selection::Position
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use super::pictures;
 use super::shapes::EmittingShape;
-use super::spectra::Meaning;
+use super::spectra::{Meaning, SpectrumCompiler};
 use super::textures::TextureCompiler;
 use super::view::rebase;
-use crate::color::{ColorSpaceKind, UpsamplingTable};
+use crate::color::UpsamplingTable;
 use crate::image::Image;
 use crate::light::{
     Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight,
@@ -27,7 +27,7 @@ pub(super) struct LightCompiler<'a, 'b> {
     pub(super) files: &'a dyn FileSystem,
     pub(super) textures: &'b mut TextureCompiler<'a>,
     pub(super) render_from_world: Transform,
-    pub(super) table: Option<Arc<UpsamplingTable>>,
+    pub(super) tables: [Option<Arc<UpsamplingTable>>; 4],
 }
 
 impl LightCompiler<'_, '_> {
@@ -118,10 +118,11 @@ impl LightCompiler<'_, '_> {
         Some(self.emission(image))
     }
 
-    /// RGB of picture files is sRGB.
     fn emission(&mut self, image: Image) -> EmissionPicture {
-        let space = self.textures.spectra.space(ColorSpaceKind::Srgb);
-        let table = self.table.get_or_insert_with(|| Arc::new(UpsamplingTable::build(space)));
+        let kind = image.color_space();
+        let space = self.textures.spectra.space(kind);
+        let table = self.tables[SpectrumCompiler::slot(kind)]
+            .get_or_insert_with(|| Arc::new(UpsamplingTable::build(space)));
         EmissionPicture::new(image, Arc::clone(table), space)
     }
 
@@ -143,7 +144,9 @@ impl LightCompiler<'_, '_> {
         self.textures
             .diagnostics
             .push(notice.with_help("+z is the top row, azimuth 0 (+x) the first column"));
+        let space = image.color_space();
         latlong_to_octahedral(&image, image.height())
+            .map(|square| square.with_color_space(space))
             .map_err(|e| self.textures.diagnostics.error(file.span, e.to_string()))
             .ok()
     }

@@ -52,7 +52,8 @@ pub fn compile(
     .compile(geometry);
 
     let mut lights: Vec<Light> = Vec::new();
-    let mut compiler = LightCompiler { files, textures: &mut textures, render_from_world, table: None };
+    let mut compiler =
+        LightCompiler { files, textures: &mut textures, render_from_world, tables: Default::default() };
     for emitting in &set.emitters {
         let index = emitting.shape.0 as usize;
         if let Some(light) = compiler.area(desc, emitting, &set.shapes[index]) {
@@ -68,6 +69,7 @@ pub fn compile(
         specular_surfaces: desc.materials.iter().any(|m| scatters_discretely(&m.kind)),
     };
     let path = integrator::choose(&desc.integrator, risk, diagnostics);
+    let selection = integrator::selection(&desc.integrator, diagnostics);
     let accel = Accel::build(&set.shapes, &set.layout)
         .map_err(|e| push_unlocated(diagnostics, Severity::Error, e.to_string()))
         .ok();
@@ -84,7 +86,7 @@ pub fn compile(
     }
     // Without geometry a sky has no surface to light, but is seen all the same.
     let radius = Some(accel.bounds().bounding_sphere().1).filter(|r| *r > 0.0).unwrap_or(1.0);
-    let light_sampler = LightSampler::by_power(&lights, &set.shapes, radius);
+    let light_sampler = LightSampler::for_scene(&lights, &set.shapes, radius, selection);
     let options = &desc.options;
     let jitter = |off: bool| if off { Jitter::Off } else { Jitter::On };
     Some(RenderJob {

@@ -33,14 +33,18 @@ impl<'a> SpectrumCompiler<'a> {
         Self { files, spaces: [const { None }; 4] }
     }
 
-    pub(super) fn space(&mut self, kind: ColorSpaceKind) -> &ColorSpace {
-        let slot = match kind {
+    /// Place of a colour space in tables of all of them.
+    pub(super) fn slot(kind: ColorSpaceKind) -> usize {
+        match kind {
             ColorSpaceKind::Srgb => 0,
             ColorSpaceKind::DciP3 => 1,
             ColorSpaceKind::Rec2020 => 2,
             ColorSpaceKind::Aces2065_1 => 3,
-        };
-        self.spaces[slot].get_or_insert_with(|| ColorSpace::new(kind))
+        }
+    }
+
+    pub(super) fn space(&mut self, kind: ColorSpaceKind) -> &ColorSpace {
+        self.spaces[Self::slot(kind)].get_or_insert_with(|| ColorSpace::new(kind))
     }
 
     /// The spectrum that `desc` states; an error is reported and replaced by zero, so that all others are found, too.

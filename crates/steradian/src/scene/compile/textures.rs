@@ -32,7 +32,7 @@ pub(super) struct TextureCompiler<'a> {
     floats: Vec<Option<FloatTextureId>>,
     spectrum_textures: BTreeMap<(usize, Meaning), Option<SpectrumTextureId>>,
     images: BTreeMap<(PathBuf, String), Option<ImageId>>,
-    srgb_table: Option<ColorTableId>,
+    color_tables: [Option<ColorTableId>; 4],
 }
 
 /// Stands in for a texture that could not be compiled; its error has been reported.
@@ -56,7 +56,7 @@ impl<'a> TextureCompiler<'a> {
             floats: vec![None; desc.float_textures.len()],
             spectrum_textures: BTreeMap::new(),
             images: BTreeMap::new(),
-            srgb_table: None,
+            color_tables: [None; 4],
         };
         // In order of definition a texture finds its inputs compiled: chains of any length need no recursion.
         for id in &desc.texture_order {
@@ -109,15 +109,21 @@ impl<'a> TextureCompiler<'a> {
         id
     }
 
-    /// RGB of picture files is sRGB; the table is built when the first coloured picture needs it.
-    pub(super) fn srgb_table(&mut self) -> ColorTableId {
-        if let Some(id) = self.srgb_table {
+    /// The table of a colour space, built when the first coloured picture needs it.
+    fn color_table(&mut self, kind: ColorSpaceKind) -> ColorTableId {
+        let slot = SpectrumCompiler::slot(kind);
+        if let Some(id) = self.color_tables[slot] {
             return id;
         }
-        let space = self.spectra.space(ColorSpaceKind::Srgb);
+        let space = self.spectra.space(kind);
         let id = self.textures.push_color_space(space, UpsamplingTable::build(space));
-        self.srgb_table = Some(id);
+        self.color_tables[slot] = Some(id);
         id
+    }
+
+    /// The colour space that a picture's file names; sRGB where it names none.
+    fn picture_space(&self, id: ImageId) -> ColorSpaceKind {
+        self.textures.image(id).map_or(ColorSpaceKind::Srgb, |p| p.level(0).color_space())
     }
 
     fn define_float(&mut self, id: Id<FloatTextureDesc>) {
@@ -241,14 +247,15 @@ impl<'a> TextureCompiler<'a> {
                     Meaning::Unbounded => SpectrumUse::Unbounded,
                     Meaning::Illuminant => SpectrumUse::Illuminant,
                 };
-                SpectrumTexture::Image { texture, colors: self.srgb_table(), reading }
+                let colors = self.color_table(self.picture_space(texture.image));
+                SpectrumTexture::Image { texture, colors, reading }
             }
             SpectrumTextureKind::Marble { noise, scale, variation } => SpectrumTexture::Marble(Marble {
                 mapping: Mapping3d { texture_from_render: space },
                 octaves: octaves(noise),
                 scale: *scale,
                 variation: *variation,
-                colors: self.srgb_table(),
+                colors: self.color_table(ColorSpaceKind::Srgb),
             }),
         })
     }

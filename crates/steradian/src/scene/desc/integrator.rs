@@ -93,8 +93,8 @@ pub struct PathDesc {
     pub max_depth: u32,
     /// Whether BSDFs are roughened after the first bounce (false).
     pub regularize: bool,
-    /// How lights are chosen (bvh).
-    pub light_sampler: LightSamplerKind,
+    /// How lights are chosen; `None` where the scene does not say (by power; pbrt-v4: bvh).
+    pub light_sampler: Option<LightSamplerKind>,
 }
 
 /// How lights are chosen for sampling.

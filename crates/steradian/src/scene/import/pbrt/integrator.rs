@@ -26,7 +26,7 @@ const COUNTS: std::ops::RangeInclusive<u32> = 1..=i32::MAX as u32;
 
 /// The integrator of a scene that has no Integrator directive.
 pub(super) fn default_integrator(span: Span) -> IntegratorDesc {
-    let path = PathDesc { max_depth: 5, regularize: false, light_sampler: LightSamplerKind::Bvh };
+    let path = PathDesc { max_depth: 5, regularize: false, light_sampler: None };
     IntegratorDesc { kind: IntegratorKind::VolPath(path), span }
 }
 
@@ -92,15 +92,15 @@ pub(super) fn integrator(class: &Text, directive: Span, args: &mut Args<'_>) -> 
 
 fn path(args: &mut Args<'_>) -> PathDesc {
     let samplers = [
-        ("bvh", LightSamplerKind::Bvh),
-        ("uniform", LightSamplerKind::Uniform),
-        ("power", LightSamplerKind::Power),
-        ("exhaustive", LightSamplerKind::Exhaustive),
+        ("bvh", Some(LightSamplerKind::Bvh)),
+        ("uniform", Some(LightSamplerKind::Uniform)),
+        ("power", Some(LightSamplerKind::Power)),
+        ("exhaustive", Some(LightSamplerKind::Exhaustive)),
     ];
     PathDesc {
         max_depth: args.count("maxdepth", 5, DEPTHS),
         regularize: args.bool("regularize", false),
-        light_sampler: args.choice("lightsampler", LightSamplerKind::Bvh, &samplers),
+        light_sampler: args.choice("lightsampler", None, &samplers),
     }
 }
 

@@ -30,7 +30,7 @@ fn an_empty_world_has_the_defaults_of_pbrt() {
     assert_eq!((s.film.sensor.iso, s.film.sensor.white_balance), (100.0, None));
     assert_eq!((s.filter.kind, s.filter.radius), (FilterKind::Gaussian { sigma: 0.5 }, [1.5, 1.5]));
     assert_eq!((s.sampler.kind, s.sampler.pixel_samples), (SamplerKind::ZSobol(Randomization::FastOwen), 16));
-    let path = PathDesc { max_depth: 5, regularize: false, light_sampler: LightSamplerKind::Bvh };
+    let path = PathDesc { max_depth: 5, regularize: false, light_sampler: None };
     assert_eq!(s.integrator.kind, IntegratorKind::VolPath(path));
     assert_eq!(s.accelerator.kind, AcceleratorKind::Bvh);
     assert_eq!(s.options, OptionsDesc::default());
@@ -119,7 +119,7 @@ fn samplers() {
 #[test]
 fn integrators_and_accelerators() {
     let kind = |text: &str| scene(&format!("Integrator {text} WorldBegin")).integrator.kind;
-    let path = PathDesc { max_depth: 65, regularize: true, light_sampler: LightSamplerKind::Power };
+    let path = PathDesc { max_depth: 65, regularize: true, light_sampler: Some(LightSamplerKind::Power) };
     assert_eq!(
         kind("\"path\" \"integer maxdepth\" 65 \"bool regularize\" true \"string lightsampler\" \"power\""),
         IntegratorKind::Path(path)
