@@ -3,6 +3,7 @@
 mod bezier;
 mod segment;
 
+pub use bezier::{Basis, Degree};
 pub use segment::{CurveSegment, Profile};
 
 use super::contract::{Orientation, PrimHit, ShapeError};
@@ -10,26 +11,6 @@ use super::validate;
 use crate::math::{BoundedPoint, Bounds3, Normal, Point, Ray, Shading, SurfacePoint, Transform, Vec2, Vec3};
 use bezier::Bezier;
 use glam::Quat;
-
-/// Which polynomial basis control points refer to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Basis {
-    /// Bézier pieces that share their end points.
-    #[default]
-    Bezier,
-    /// A uniform B-spline.
-    BSpline,
-}
-
-/// Polynomial degree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Degree {
-    /// Two.
-    Quadratic,
-    /// Three.
-    #[default]
-    Cubic,
-}
 
 /// What a curve is made of, in object space.
 #[derive(Clone, Debug)]

@@ -1,7 +1,26 @@
 //! Cubic Bézier curves and the conversions to them.
 
-use super::{Basis, Degree};
 use crate::math::{Point, Vec3};
+
+/// Which polynomial basis control points refer to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Basis {
+    /// Bézier pieces that share their end points.
+    #[default]
+    Bezier,
+    /// A uniform B-spline.
+    BSpline,
+}
+
+/// Polynomial degree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Degree {
+    /// Two.
+    Quadratic,
+    /// Three.
+    #[default]
+    Cubic,
+}
 
 /// A cubic by its control points.
 #[derive(Clone, Copy, Debug)]
