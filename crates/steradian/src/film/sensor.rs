@@ -101,8 +101,7 @@ pub(super) fn tristimulus(l: Sampled<Radiance>, w: &Wavelengths) -> Vec3 {
     for lane in 0..LANES {
         let (lambda, pdf) = (w.lambda()[lane], w.pdf()[lane]);
         if pdf > 0.0 {
-            let bars = Vec3::new(cie::x_bar(lambda), cie::y_bar(lambda), cie::z_bar(lambda));
-            sum += bars * (l[lane] / pdf);
+            sum += Vec3::from_array(cie::bars(lambda)) * (l[lane] / pdf);
         }
     }
     sum / LANES as f32

@@ -77,6 +77,10 @@ impl Roughness {
         scale: RoughnessScale::Perceptual,
     };
 
+    pub(super) fn is_textured(&self) -> bool {
+        self.u.is_textured() || self.v.is_textured()
+    }
+
     pub(super) fn at(&self, lookup: &Lookup) -> TrowbridgeReitz {
         let alpha = |input| {
             let value = lookup.float(input);
@@ -104,6 +108,13 @@ pub enum Metal {
 }
 
 impl Metal {
+    pub(super) fn is_textured(&self) -> bool {
+        match self {
+            Self::Index { eta, k } => eta.is_textured() || k.is_textured(),
+            Self::Reflectance(r) => r.is_textured(),
+        }
+    }
+
     pub(super) fn at(&self, roughness: &Roughness, lookup: &Lookup) -> Conductor {
         let (eta, k) = match self {
             Self::Index { eta, k } => (lookup.spectrum(eta), lookup.spectrum(k)),
@@ -156,6 +167,13 @@ impl Default for CoatInput {
 }
 
 impl CoatInput {
+    pub(super) fn is_textured(&self) -> bool {
+        self.roughness.is_textured()
+            || self.thickness.is_textured()
+            || self.albedo.is_textured()
+            || self.g.is_textured()
+    }
+
     pub(super) fn at(&self, lookup: &mut Lookup) -> Coat {
         Coat {
             interface: Dielectric { eta: lookup.index(&self.eta), roughness: self.roughness.at(lookup) },

@@ -87,6 +87,26 @@ pub enum Material {
     Interface,
 }
 
+impl Material {
+    /// Whether a parameter varies over the surface; of a mix, its amount.
+    fn is_textured(&self) -> bool {
+        match self {
+            Self::Diffuse { reflectance } => reflectance.is_textured(),
+            Self::DiffuseTransmission { reflectance, transmittance, .. } => {
+                reflectance.is_textured() || transmittance.is_textured()
+            }
+            Self::Conductor { metal, roughness } => metal.is_textured() || roughness.is_textured(),
+            Self::Dielectric { roughness, .. } => roughness.is_textured(),
+            Self::CoatedDiffuse { reflectance, coat } => reflectance.is_textured() || coat.is_textured(),
+            Self::CoatedConductor { metal, roughness, coat } => {
+                metal.is_textured() || roughness.is_textured() || coat.is_textured()
+            }
+            Self::Mix { amount, .. } => amount.is_textured(),
+            Self::ThinDielectric { .. } | Self::Interface => false,
+        }
+    }
+}
+
 /// Relief that is shaded but not built.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Detail {
@@ -124,6 +144,7 @@ pub struct Materials {
 struct Entry {
     material: Material,
     detail: Detail,
+    needs_footprint: bool,
 }
 
 impl Materials {
@@ -160,7 +181,11 @@ impl Materials {
         {
             return Err(MaterialError::UnknownNormalMap);
         }
-        self.entries.push(Entry { material, detail });
+        let of = |id: MaterialId| self.needs_footprint(id);
+        let needs_footprint = material.is_textured()
+            || detail != Detail::Flat
+            || matches!(&material, Material::Mix { materials, .. } if materials.iter().any(|&id| of(id)));
+        self.entries.push(Entry { material, detail, needs_footprint });
         Ok(MaterialId(self.entries.len() as u32 - 1))
     }
 
@@ -172,6 +197,13 @@ impl Materials {
     /// Whether light passes the material straight, wherever it meets it.
     pub fn is_interface(&self, id: MaterialId) -> bool {
         matches!(self.get(id), Material::Interface)
+    }
+
+    /// Whether the material looks at how fast its texture coordinates change, at any point.
+    ///
+    /// Only textures and relief do; a footprint costs as much as an intersection.
+    pub fn needs_footprint(&self, id: MaterialId) -> bool {
+        self.entries[id.0 as usize].needs_footprint
     }
 
     /// The scattering function of material `id` at `point`, seen from `wo`; `None` for a mere boundary of media,
@@ -192,12 +224,12 @@ impl Materials {
     ) -> Option<SurfaceBsdf> {
         let at = TextureContext { point, footprint };
         let entry = self.unmixed(id, &at, wo, textures);
-        let shading = self.relief(entry, point, footprint, textures);
-        let mut point = *point;
-        point.shading = shading;
-        let mut lookup = Lookup::new(textures, &point, footprint, w);
+        let relief =
+            self.relief(entry, point, footprint, textures).map(|shading| SurfacePoint { shading, ..*point });
+        let point = relief.as_ref().unwrap_or(point);
+        let mut lookup = Lookup::new(textures, point, footprint, w);
         let bsdf = scatterer(&entry.material, &mut lookup, seed)?;
-        Some(SurfaceBsdf::new(bsdf, &shading))
+        Some(SurfaceBsdf::new(bsdf, &point.shading))
     }
 
     /// Follows mixes to a material that is none. Ends, since a mix refers to earlier materials only.
@@ -214,21 +246,21 @@ impl Materials {
         entry
     }
 
+    /// The shading geometry under the material's relief; `None` where that leaves it as it is.
     fn relief(
         &self,
         entry: &Entry,
         point: &SurfacePoint,
         footprint: &Footprint,
         textures: &Textures,
-    ) -> Shading {
-        let perturbed = match entry.detail {
+    ) -> Option<Shading> {
+        match entry.detail {
             Detail::Flat => None,
             Detail::Bump(displacement) => detail::bump(point, footprint, |point| {
                 textures.float_input(&displacement, &TextureContext { point, footprint })
             }),
             Detail::Normals(id) => detail::normal_map(point, &self.normal_maps[id.0 as usize]),
-        };
-        perturbed.unwrap_or(point.shading)
+        }
     }
 }
 

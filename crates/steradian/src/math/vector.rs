@@ -75,8 +75,19 @@ macro_rules! unit_vector {
             pub const Z: Self = Self(Vec3::Z);
 
             /// Normalises `v`; `None` when its length is zero, infinite or NaN.
+            #[inline]
             pub fn new(v: Vec3) -> Option<Self> {
-                // Scaling by the largest component first keeps tiny and huge vectors in range.
+                let squared = v.length_squared();
+                // Well inside the range of f32, where no square has lost digits. False for NaN.
+                if (1e-24..1e24).contains(&squared) {
+                    return Some(Self(v * (1.0 / squared.sqrt())));
+                }
+                Self::rescaled(v)
+            }
+
+            /// Scaling by the largest component first keeps tiny and huge vectors in range.
+            #[cold]
+            fn rescaled(v: Vec3) -> Option<Self> {
                 let scale = v.abs().max_element();
                 if !(scale > 0.0 && v.is_finite()) {
                     return None;

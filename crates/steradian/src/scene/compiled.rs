@@ -87,7 +87,8 @@ impl Scene {
     ///
     /// `seed` decides the random walks of layered materials.
     pub fn shade(&self, hit: &SceneHit, wo: Dir, w: &mut Wavelengths, seed: u64) -> Option<SurfaceBsdf> {
-        let footprint = self.footprint(&hit.point);
+        let used = self.materials.needs_footprint(hit.material);
+        let footprint = if used { self.footprint(&hit.point) } else { Footprint::ZERO };
         self.materials.shade(hit.material, &hit.point, &footprint, wo, &self.textures, w, seed)
     }
 

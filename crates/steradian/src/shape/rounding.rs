@@ -15,6 +15,5 @@ pub(super) fn bounded(p: DVec3, magnitude: DVec3) -> BoundedPoint {
 
 /// Normalises in f64; `None` for a vector without length.
 pub(super) fn normalized(v: DVec3) -> Option<crate::math::Normal> {
-    let n = v.try_normalize()?.as_vec3();
-    crate::math::Normal::new(n)
+    Some(crate::math::Normal::new_unchecked(v.try_normalize()?.as_vec3()))
 }

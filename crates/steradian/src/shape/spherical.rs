@@ -5,12 +5,12 @@
 use crate::math::{Point, Vec2};
 use glam::DVec3;
 
-/// A point of a polygon chosen uniformly in solid angle.
+/// A point of a rectangle chosen uniformly in solid angle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PolygonSample {
-    /// Triangle: barycentric b₁ and b₂. Rectangle: fractions along its two edges.
+pub(super) struct RectangleSample {
+    /// Fractions along the two edges.
     pub(super) at: [f64; 2],
-    /// Solid angle of the polygon [sr]; the density is its inverse.
+    /// Solid angle of the rectangle [sr]; the density is its inverse.
     pub(super) solid_angle: f64,
 }
 
@@ -39,95 +39,89 @@ fn orthogonal(v: DVec3, axis: DVec3) -> Option<DVec3> {
     (v - axis * v.dot(axis)).try_normalize()
 }
 
-/// The inner angles at a, b, c and the corners themselves of a spherical triangle.
-struct Angles {
-    alpha: f64,
-    beta: f64,
-    gamma: f64,
+/// A triangle as seen from a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SphericalTriangle {
+    /// From the point to the corners.
+    offsets: [DVec3; 3],
+    /// Unit directions to the corners.
+    pub(super) corners: [DVec3; 3],
+    /// Solid angle [sr].
+    pub(super) solid_angle: f64,
 }
 
-impl Angles {
-    fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
-        let (ab, bc, ca) =
-            (a.cross(b).try_normalize()?, b.cross(c).try_normalize()?, c.cross(a).try_normalize()?);
-        Some(Self {
-            alpha: angle_between(ab, -ca),
-            beta: angle_between(bc, -ab),
-            gamma: angle_between(ca, -bc),
-        })
+impl SphericalTriangle {
+    /// The triangle `v` seen from `from`; `None` when `from` is one of its corners.
+    pub(super) fn new(v: [Point; 3], from: Point) -> Option<Self> {
+        let o = to_f64(from);
+        let offsets = v.map(|p| to_f64(p) - o);
+        let [a, b, c] = offsets;
+        let corners = [a.try_normalize()?, b.try_normalize()?, c.try_normalize()?];
+        Some(Self { offsets, corners, solid_angle: triangle_solid_angle(corners) })
     }
 
-    fn area(&self) -> f64 {
-        self.alpha + self.beta + self.gamma - std::f64::consts::PI
+    /// Chooses a direction uniformly within the triangle (Arvo 1995) and returns barycentric (b₁, b₂) of the point
+    /// of the triangle there; `None` when the triangle degenerates to an arc or a point.
+    pub(super) fn sample(&self, u: Vec2) -> Option<[f64; 2]> {
+        let [a, b, c] = self.corners;
+        // Arvo's inner angle α at a enters by sine and cosine alone: (a×b)·(a×c) and |(a×b)×(a×c)| = |a·(b×c)|.
+        let (ab, ac) = (a.cross(b), a.cross(c));
+        let scale = 1.0 / (ab.length_squared() * ac.length_squared()).sqrt();
+        let (cos_alpha, sin_alpha) = (ab.dot(ac) * scale, ab.dot(c).abs() * scale);
+        if !(self.solid_angle > 0.0 && scale.is_finite()) {
+            return None;
+        }
+        // The sub-triangle with the fraction u.x of the area shares the edge ab; its third corner c′ lies on ac.
+        let (sin_area, cos_area) = (f64::from(u.x) * self.solid_angle).sin_cos();
+        let s = sin_area * cos_alpha - cos_area * sin_alpha;
+        let t = cos_area * cos_alpha + sin_area * sin_alpha;
+        let cos_c = a.dot(b);
+        let (p, q) = (t - cos_alpha, s + sin_alpha * cos_c);
+        let denominator = (q * s + p * t) * sin_alpha;
+        let cos_b = if denominator == 0.0 { 1.0 } else { ((q * t - p * s) * cos_alpha - q) / denominator };
+        let cos_b = cos_b.clamp(-1.0, 1.0);
+        let c_sub = a * cos_b + orthogonal(c, a)? * (1.0 - cos_b * cos_b).max(0.0).sqrt();
+        // Along the arc from b to c′ the density is uniform in the cosine.
+        let one_minus_cos = f64::from(u.y) * (1.0 - c_sub.dot(b));
+        let sin_theta = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
+        let w = match orthogonal(c_sub, b) {
+            Some(x) => b * (1.0 - one_minus_cos) + x * sin_theta,
+            None => b,
+        };
+        self.barycentric(w)
     }
-}
 
-/// Angle between unit vectors, accurate near 0 and π.
-fn angle_between(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
-}
-
-/// Chooses a direction uniformly within the triangle as seen from `from` (Arvo 1995) and returns the point of the
-/// triangle there; `None` when the triangle degenerates to an arc or a point.
-pub(super) fn sample_triangle(v: [Point; 3], from: Point, u: Vec2) -> Option<PolygonSample> {
-    let corners = directions_to(v, from)?;
-    let angles = Angles::new(corners)?;
-    let solid_angle = angles.area();
-    if !(solid_angle > 0.0) {
-        return None;
+    /// Barycentric (b₁, b₂) of the point of the triangle in direction `w`, kept inside the triangle.
+    fn barycentric(&self, w: DVec3) -> Option<[f64; 2]> {
+        let [p0, p1, p2] = self.offsets;
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        let s1 = w.cross(e2);
+        let divisor = s1.dot(e1);
+        if divisor == 0.0 {
+            return None;
+        }
+        let s = -p0;
+        let inverse = 1.0 / divisor;
+        let b1 = (s.dot(s1) * inverse).clamp(0.0, 1.0);
+        let b2 = (w.dot(s.cross(e1)) * inverse).clamp(0.0, 1.0);
+        let excess = (b1 + b2).max(1.0);
+        Some([b1 / excess, b2 / excess])
     }
-    let [a, b, c] = corners;
-    // The sub-triangle with the fraction u.x of the area shares the edge ab; its third corner c′ lies on ac.
-    let sub_area = f64::from(u.x) * solid_angle;
-    let (sin_alpha, cos_alpha) = angles.alpha.sin_cos();
-    let (s, t) = (sub_area - angles.alpha).sin_cos();
-    let cos_c = a.dot(b);
-    let (p, q) = (t - cos_alpha, s + sin_alpha * cos_c);
-    let denominator = (q * s + p * t) * sin_alpha;
-    let cos_b = if denominator == 0.0 { 1.0 } else { ((q * t - p * s) * cos_alpha - q) / denominator };
-    let cos_b = cos_b.clamp(-1.0, 1.0);
-    let c_sub = a * cos_b + orthogonal(c, a)? * (1.0 - cos_b * cos_b).max(0.0).sqrt();
-    // Along the arc from b to c′ the density is uniform in the cosine.
-    let one_minus_cos = f64::from(u.y) * (1.0 - c_sub.dot(b));
-    let sin_theta = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
-    let w = match orthogonal(c_sub, b) {
-        Some(x) => b * (1.0 - one_minus_cos) + x * sin_theta,
-        None => b,
-    };
-    Some(PolygonSample { at: barycentric(v, from, w)?, solid_angle })
-}
 
-/// Barycentric (b₁, b₂) of the point of the triangle in direction `w`, kept inside the triangle.
-fn barycentric(v: [Point; 3], from: Point, w: DVec3) -> Option<[f64; 2]> {
-    let [p0, p1, p2] = v.map(to_f64);
-    let (e1, e2) = (p1 - p0, p2 - p0);
-    let s1 = w.cross(e2);
-    let divisor = s1.dot(e1);
-    if divisor == 0.0 {
-        return None;
+    /// The sample u that [`SphericalTriangle::sample`] maps to direction `w`, a unit vector through the triangle.
+    pub(super) fn invert(&self, w: DVec3) -> Option<Vec2> {
+        let [a, b, c] = self.corners;
+        // c′ is where the great circle through b and w meets the edge ac.
+        let mut c_sub = b.cross(w).cross(c.cross(a)).try_normalize()?;
+        if c_sub.dot(a + c) < 0.0 {
+            c_sub = -c_sub;
+        }
+        let area = self.solid_angle;
+        let x = if area > 0.0 { triangle_solid_angle([a, b, c_sub]) / area } else { 0.0 };
+        let span = 1.0 - c_sub.dot(b);
+        let y = if span > 0.0 { (1.0 - w.dot(b)) / span } else { 0.0 };
+        Some(Vec2::new(x.clamp(0.0, 1.0) as f32, y.clamp(0.0, 1.0) as f32))
     }
-    let s = to_f64(from) - p0;
-    let b1 = (s.dot(s1) / divisor).clamp(0.0, 1.0);
-    let b2 = (w.dot(s.cross(e1)) / divisor).clamp(0.0, 1.0);
-    let excess = (b1 + b2).max(1.0);
-    Some([b1 / excess, b2 / excess])
-}
-
-/// The sample u that [`sample_triangle`] maps to direction `w`, a unit vector through the triangle.
-pub(super) fn invert_triangle(v: [Point; 3], from: Point, w: DVec3) -> Option<Vec2> {
-    let corners = directions_to(v, from)?;
-    let angles = Angles::new(corners)?;
-    let [a, b, c] = corners;
-    // c′ is where the great circle through b and w meets the edge ac.
-    let mut c_sub = b.cross(w).cross(c.cross(a)).try_normalize()?;
-    if c_sub.dot(a + c) < 0.0 {
-        c_sub = -c_sub;
-    }
-    let area = angles.area();
-    let x = if area > 0.0 { triangle_solid_angle([a, b, c_sub]) / area } else { 0.0 };
-    let span = 1.0 - c_sub.dot(b);
-    let y = if span > 0.0 { (1.0 - w.dot(b)) / span } else { 0.0 };
-    Some(Vec2::new(x.clamp(0.0, 1.0) as f32, y.clamp(0.0, 1.0) as f32))
 }
 
 /// A planar rectangle as seen from a point: the projection of Ureña, Fajardo and King (2013).
@@ -175,7 +169,7 @@ pub(super) fn sample_rectangle(
     edges: [DVec3; 2],
     from: Point,
     u: Vec2,
-) -> Option<PolygonSample> {
+) -> Option<RectangleSample> {
     let r = Rectangle::new(corner, edges, from)?;
     let au = f64::from(u.x) * r.solid_angle + r.k;
     let (sin_au, cos_au) = au.sin_cos();
@@ -189,7 +183,7 @@ pub(super) fn sample_rectangle(
     let hv2 = hv * hv;
     let yv = if hv2 < 1.0 - 1e-12 { hv * d2.sqrt() / (1.0 - hv2).sqrt() } else { r.y[1] };
     let fraction = |a: f64, [lo, hi]: [f64; 2]| ((a - lo) / (hi - lo)).clamp(0.0, 1.0);
-    Some(PolygonSample { at: [fraction(xu, r.x), fraction(yv, r.y)], solid_angle: r.solid_angle })
+    Some(RectangleSample { at: [fraction(xu, r.x), fraction(yv, r.y)], solid_angle: r.solid_angle })
 }
 
 /// The sample u that [`sample_rectangle`] maps to the point at fractions `at` of the edges.
@@ -223,7 +217,6 @@ mod tests {
     fn an_octant_subtends_half_pi() {
         let octant = [DVec3::X, DVec3::Y, DVec3::Z];
         assert!((triangle_solid_angle(octant) - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
-        assert!((Angles::new(octant).unwrap().area() - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
         // One face of a cube seen from its centre: 4π/6.
         let face = rectangle_solid_angle(
             Point::new(-1.0, -1.0, 1.0),
@@ -243,6 +236,7 @@ mod tests {
         };
         let (e1, e2) = (to_f64(v[1]) - to_f64(v[0]), to_f64(v[2]) - to_f64(v[0]));
         let n = e1.cross(e2);
+        let seen = SphericalTriangle::new(v, from).unwrap();
         let f = |b: [f64; 2]| DVec3::new(b[0], b[1] * b[1], b[0] * b[1]);
         let k = 200;
         let (mut quadrature, mut omega) = (DVec3::ZERO, 0.0);
@@ -257,13 +251,12 @@ mod tests {
             let weight = 0.5 * (q.dot(n)).abs() / q.length().powi(3) / f64::from(k * k);
             quadrature += f([x, y]) * weight;
             omega += weight;
-            let s = sample_triangle(v, from, u).unwrap();
-            sampled += f(s.at) / f64::from(k * k);
-            let w = p(s.at).normalize();
-            let back = invert_triangle(v, from, w).unwrap();
+            let at = seen.sample(u).unwrap();
+            sampled += f(at) / f64::from(k * k);
+            let back = seen.invert(p(at).normalize()).unwrap();
             assert!((back - u).abs().max_element() < 1e-4, "{u} {back}");
         }
-        let expected = triangle_solid_angle(directions_to(v, from).unwrap());
+        let expected = seen.solid_angle;
         assert!((omega / expected - 1.0).abs() < 1e-4, "{omega} {expected}");
         assert!((sampled - quadrature / omega).abs().max_element() < 1e-4, "{sampled} {quadrature}");
     }

@@ -2,7 +2,7 @@
 
 use super::contract::{ReferencePoint, ShapeSample, ShapeSampleToward, area_density_toward};
 use super::mesh::{self, TriangleMesh};
-use super::spherical;
+use super::spherical::SphericalTriangle;
 use crate::math::{Dir, Normal, SurfacePoint, Vec2, warp};
 use crate::units::{PdfArea, PdfSolidAngle};
 use glam::DVec3;
@@ -26,22 +26,20 @@ impl TriangleMesh {
 
     /// Chooses a point by the solid angle at `from`, with the cosine at a shading normal warped in.
     pub fn sample_toward(&self, triangle: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
-        let v = self.corners(triangle);
-        let Some(corners) = self.spherical_corners(triangle, from) else {
+        let Some(seen) = self.seen_from(triangle, from) else {
             return self.sample_area(triangle, u)?.toward(from);
         };
         let (u, warp_pdf) = match from.ns {
             Some(ns) => {
-                let w = corner_weights(corners, ns);
+                let w = corner_weights(seen.corners, ns);
                 let warped = warp::bilinear(u, w);
                 (warped, warp::bilinear_pdf(warped, w))
             }
             None => (u, 1.0),
         };
-        let s = spherical::sample_triangle(v, from.p.p, u)?;
-        let b = s.at.map(|b| b as f32);
+        let b = seen.sample(u)?.map(|b| b as f32);
         let p = self.point_at(triangle, b);
-        let density = PdfSolidAngle(warp_pdf / s.solid_angle as f32);
+        let density = PdfSolidAngle(warp_pdf / seen.solid_angle as f32);
         Some(ShapeSampleToward {
             p,
             n: self.geometric_normal(triangle, b)?,
@@ -59,27 +57,26 @@ impl TriangleMesh {
         wi: Dir,
         hit: &SurfacePoint,
     ) -> PdfSolidAngle {
-        let Some(corners) = self.spherical_corners(triangle, from) else {
+        let Some(seen) = self.seen_from(triangle, from) else {
             return area_density_toward(PdfArea(1.0 / self.area(triangle)), from, wi, hit);
         };
-        let uniform = (1.0 / spherical::triangle_solid_angle(corners)) as f32;
+        let uniform = (1.0 / seen.solid_angle) as f32;
         let Some(ns) = from.ns else { return PdfSolidAngle(uniform) };
         // Normalised in f64: the inversion divides by the area of a sub-triangle.
         let w = wi.as_dvec3().normalize();
-        let Some(u) = spherical::invert_triangle(self.corners(triangle), from.p.p, w) else {
+        let Some(u) = seen.invert(w) else {
             return PdfSolidAngle(uniform);
         };
-        PdfSolidAngle(uniform * warp::bilinear_pdf(u, corner_weights(corners, ns)))
+        PdfSolidAngle(uniform * warp::bilinear_pdf(u, corner_weights(seen.corners, ns)))
     }
 
-    /// Directions to the corners if the triangle is to be sampled by solid angle.
-    fn spherical_corners(&self, triangle: u32, from: &ReferencePoint) -> Option<[DVec3; 3]> {
+    /// The triangle as seen from the reference point if it is to be sampled by solid angle.
+    fn seen_from(&self, triangle: u32, from: &ReferencePoint) -> Option<SphericalTriangle> {
         let v = self.corners(triangle);
         if mesh::cross(v) == DVec3::ZERO {
             return None;
         }
-        let corners = spherical::directions_to(v, from.p.p)?;
-        SPHERICAL_SAMPLING.contains(&spherical::triangle_solid_angle(corners)).then_some(corners)
+        SphericalTriangle::new(v, from.p.p).filter(|s| SPHERICAL_SAMPLING.contains(&s.solid_angle))
     }
 }
 

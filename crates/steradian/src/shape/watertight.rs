@@ -26,20 +26,16 @@ impl Shear {
     #[inline]
     pub fn new(ray: &Ray) -> Self {
         let a = ray.d.abs();
-        let z = if a.x > a.y {
-            if a.x > a.z { 0 } else { 2 }
-        } else if a.y > a.z {
-            1
+        let axes = if a.x > a.y && a.x > a.z {
+            [1, 2, 0]
+        } else if a.y > a.z && a.y >= a.x {
+            [2, 0, 1]
         } else {
-            2
+            [0, 1, 2]
         };
-        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
-        Self {
-            axes: [x, y, z],
-            factors: [-ray.d[x] / ray.d[z], -ray.d[y] / ray.d[z]],
-            origin: [ray.o.0[x], ray.o.0[y], ray.o.0[z]],
-            d: DVec3::new(f64::from(ray.d[x]), f64::from(ray.d[y]), f64::from(ray.d[z])),
-        }
+        let permuted = |v: [f32; 3]| axes.map(|axis| v[axis]);
+        let (d, origin) = (permuted(ray.d.to_array()), permuted(ray.o.to_array()));
+        Self { axes, factors: [-d[0] / d[2], -d[1] / d[2]], origin, d: DVec3::from(d.map(f64::from)) }
     }
 
     /// Projects a vertex along the ray. Every rounding here is part of the watertightness argument: whoever

@@ -17,29 +17,31 @@ pub fn table() -> &'static [[f32; 3]; SAMPLES] {
     &MATCHING
 }
 
-fn lookup(lambda: f32, channel: usize) -> f32 {
+/// x̄, ȳ and z̄ at `lambda` [nm].
+pub fn bars(lambda: f32) -> [f32; 3] {
     if !(LAMBDA_MIN..=LAMBDA_MAX).contains(&lambda) {
-        return 0.0;
+        return [0.0; 3];
     }
     let x = lambda - LAMBDA_MIN;
-    let i = (x as usize).min(SAMPLES - 2);
+    let i = (x as u32 as usize).min(SAMPLES - 2);
     let t = x - i as f32;
-    MATCHING[i][channel] * (1.0 - t) + MATCHING[i + 1][channel] * t
+    let (a, b) = (MATCHING[i], MATCHING[i + 1]);
+    std::array::from_fn(|c| a[c] * (1.0 - t) + b[c] * t)
 }
 
 /// Colour matching function x̄ at `lambda` [nm].
 pub fn x_bar(lambda: f32) -> f32 {
-    lookup(lambda, 0)
+    bars(lambda)[0]
 }
 
 /// Colour matching function ȳ at `lambda` [nm], equal to the luminous efficiency V.
 pub fn y_bar(lambda: f32) -> f32 {
-    lookup(lambda, 1)
+    bars(lambda)[1]
 }
 
 /// Colour matching function z̄ at `lambda` [nm].
 pub fn z_bar(lambda: f32) -> f32 {
-    lookup(lambda, 2)
+    bars(lambda)[2]
 }
 
 /// ∫ f ȳ dλ for a function of wavelength [nm]; the sum over the table at 1 nm, as the CIE prescribes.

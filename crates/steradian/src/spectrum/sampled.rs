@@ -31,10 +31,12 @@ impl Wavelengths {
             if up >= 1.0 {
                 up -= 1.0;
             }
-            let lambda = (538.0 - 138.888_889 * (0.856_910_62 - 1.827_502_0 * up).atanh())
-                .clamp(LAMBDA_MIN, LAMBDA_MAX);
-            s.lambda[i] = lambda;
-            s.pdf[i] = Self::visible_pdf(lambda);
+            let x = 0.856_910_62 - 1.827_502_0 * up;
+            // atanh x = ½ ln((1 + x)/(1 − x)); |x| < 0.98.
+            let atanh = 0.5 * ((1.0 + x) / (1.0 - x)).ln();
+            s.lambda[i] = (538.0 - 138.888_889 * atanh).clamp(LAMBDA_MIN, LAMBDA_MAX);
+            // [`Wavelengths::visible_pdf`], by 1/cosh² = 1 − tanh².
+            s.pdf[i] = 0.003_939_804_2 * (1.0 - x * x);
         }
         s
     }
@@ -290,6 +292,17 @@ mod tests {
         }
         let exact = (830.0_f64.powi(2) - 360.0_f64.powi(2)) / 2.0;
         assert!((sum / f64::from(m) / exact - 1.0).abs() < 1e-3, "{}", sum / f64::from(m) / exact);
+    }
+
+    #[test]
+    fn samples_carry_their_density() {
+        for i in 0..1000 {
+            let w = Wavelengths::sample_visible((i as f32 + 0.5) / 1000.0);
+            for (&lambda, &pdf) in w.lambda().iter().zip(w.pdf()) {
+                assert!((LAMBDA_MIN..=LAMBDA_MAX).contains(&lambda));
+                assert!((pdf / Wavelengths::visible_pdf(lambda) - 1.0).abs() < 1e-4, "{lambda}: {pdf}");
+            }
+        }
     }
 
     #[test]

@@ -58,6 +58,11 @@ impl FloatInput {
             Self::Texture(_) => None,
         }
     }
+
+    /// Whether it varies over the surface.
+    pub fn is_textured(&self) -> bool {
+        matches!(self, Self::Texture(_))
+    }
 }
 
 impl SpectrumInput {
@@ -67,5 +72,10 @@ impl SpectrumInput {
             Self::Constant(s) => Some(s),
             Self::Texture(_) => None,
         }
+    }
+
+    /// Whether it varies over the surface.
+    pub fn is_textured(&self) -> bool {
+        matches!(self, Self::Texture(_))
     }
 }
