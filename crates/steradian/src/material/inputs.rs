@@ -81,6 +81,12 @@ impl Roughness {
         self.u.is_textured() || self.v.is_textured()
     }
 
+    /// Whether the surface is smooth wherever it is looked at.
+    pub(super) fn is_smooth(&self) -> bool {
+        let zero = FloatInput::Constant(0.0);
+        self.u == zero && self.v == zero
+    }
+
     pub(super) fn at(&self, lookup: &Lookup) -> TrowbridgeReitz {
         let alpha = |input| {
             let value = lookup.float(input);

@@ -8,7 +8,7 @@ pub use inputs::{CoatInput, Metal, Roughness, RoughnessScale};
 pub use surface::{SurfaceBsdf, SurfaceSample};
 
 use crate::bsdf::{
-    Bsdf, Dielectric, Diffuse, DiffuseTransmission, Layered, ThinDielectric, VarnishedDiffuse,
+    Bsdf, Dielectric, Diffuse, DiffuseTransmission, ExitWeights, Layered, ThinDielectric, VarnishedDiffuse,
 };
 use crate::image::Image;
 use crate::math::{Dir, Footprint, Shading, SurfacePoint, hash};
@@ -192,6 +192,17 @@ impl Materials {
     /// The material behind an id of this collection; an id of another one is a broken invariant.
     pub fn get(&self, id: MaterialId) -> &Material {
         &self.entries[id.0 as usize].material
+    }
+
+    /// Whether some coat is rough and weighs its walks in pbrt-v4's inconsistent way: a bias that belongs into the
+    /// picture's metadata.
+    pub fn has_inconsistent_coats(&self) -> bool {
+        self.entries.iter().any(|e| match &e.material {
+            Material::CoatedDiffuse { coat, .. } | Material::CoatedConductor { coat, .. } => {
+                coat.weights == ExitWeights::Pbrt4 && !coat.roughness.is_smooth()
+            }
+            _ => false,
+        })
     }
 
     /// Whether light passes the material straight, wherever it meets it.

@@ -83,6 +83,9 @@ pub(super) fn metadata(job: &RenderJob, spp: u32) -> Vec<(&'static str, String)>
         ("scene.metersPerUnit", job.meters_per_unit.to_string()),
         ("units.RGB", "cd.m^-2 at exposure 1 s and ISO 100, linear".to_owned()),
     ];
+    if job.scene.materials().has_inconsistent_coats() {
+        list.push(("bias.layeredWeights", "pbrt-v4".to_owned()));
+    }
     if job.path.regularize {
         list.push(("bias.regularize", "true".to_owned()));
     }

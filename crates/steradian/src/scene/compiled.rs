@@ -160,6 +160,11 @@ impl Scene {
         &self.shapes
     }
 
+    /// The materials.
+    pub fn materials(&self) -> &Materials {
+        &self.materials
+    }
+
     /// The textures.
     pub fn textures(&self) -> &Textures {
         &self.textures

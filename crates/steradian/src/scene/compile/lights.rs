@@ -49,6 +49,15 @@ impl LightCompiler<'_, '_> {
             (None, desc::AreaRadiance::Uniform(s)) => AreaRadiance::Uniform(self.spectrum(s)),
             (None, desc::AreaRadiance::Image(_)) => return None,
         };
+        if desc.power.is_some() && shape.prim_count() > 1 {
+            self.textures.diagnostics.notice(
+                desc.span,
+                format!(
+                    "the power is that of the whole shape; pbrt-v4 would give it to each of its {} primitives",
+                    shape.prim_count()
+                ),
+            );
+        }
         let sides = if desc.two_sided { Sides::Both } else { Sides::Front };
         let light = DiffuseAreaLight::new(emitting.shape, shape, radiance, sides, &stated);
         self.report(light.map(Light::DiffuseArea), desc.span)
