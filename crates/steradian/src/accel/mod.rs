@@ -120,6 +120,7 @@ impl Accel {
     }
 
     /// Differential geometry at `hit`, in render space. `shapes` are those of [`Accel::build`].
+    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit, shapes: &[Shape]) -> SurfacePoint {
         let shape = &shapes[hit.shape.0 as usize];
         match hit.instance {

@@ -169,7 +169,8 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
                 if owner == Owner::NONE {
                     continue;
                 }
-                if let Some(h) = shear.intersect(packet.triangle(lane), query.t_max)
+                if let Some(h) =
+                    shear.intersect_permuted(packet.permuted_triangle(lane, shear.axes), query.t_max)
                     && query.offer::<ANY>(h, owner, packet.prims[lane], instance) == Verdict::Done
                 {
                     return Verdict::Done;

@@ -153,6 +153,15 @@ impl Packet {
         [0, 1, 2].map(|k| Point::new(c[k][0][lane], c[k][1][lane], c[k][2][lane]))
     }
 
+    /// The corners with their coordinates in the order of `axes`.
+    #[inline(always)]
+    pub(super) fn permuted_triangle(&self, lane: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
+        let [x, y, z] = axes;
+        let corner = |c: &[[f32; LANES]; 3]| [c[x][lane], c[y][lane], c[z][lane]];
+        let [a, b, c] = &self.corners;
+        [corner(a), corner(b), corner(c)]
+    }
+
     pub(super) fn used_lanes(&self) -> usize {
         self.owners.iter().filter(|o| **o != Owner::NONE).count()
     }

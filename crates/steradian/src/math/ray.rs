@@ -39,6 +39,7 @@ impl BoundedPoint {
     }
 
     /// Origin for a ray that leaves towards `w`: moved along `n` to the side of `w`, out of the error box.
+    #[inline]
     pub fn offset_origin(&self, n: Normal, w: Vec3) -> Point {
         let distance = n.abs().dot(self.error);
         let mut offset = n * distance;
@@ -46,13 +47,10 @@ impl BoundedPoint {
             offset = -offset;
         }
         let o = *self.p + offset;
-        // The sum rounds too: step once more, away from the surface.
-        let away = |o: f32, offset: f32| match offset {
-            x if x > 0.0 => o.next_up(),
-            x if x < 0.0 => o.next_down(),
-            _ => o,
-        };
-        Point::new(away(o.x, offset.x), away(o.y, offset.y), away(o.z, offset.z))
+        // The sum rounds too: step on by an ulp or two, away from the surface.
+        let ulp = o.abs() * f32::EPSILON + f32::MIN_POSITIVE;
+        let step = Vec3::select(offset.cmpne(Vec3::ZERO), ulp.copysign(offset), Vec3::ZERO);
+        Point(o + step)
     }
 
     /// Ray that leaves this point in direction `w`.

@@ -37,6 +37,7 @@ impl Position {
     }
 
     /// 64 random bits of the next dimension, of this sample alone.
+    #[inline]
     pub(super) fn next_sample_hash(&mut self, n: u32) -> u64 {
         let dimension = self.advance(n);
         combine(self.pixel_hash, u64::from(self.index) << 32 | u64::from(dimension))

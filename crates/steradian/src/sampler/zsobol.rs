@@ -74,10 +74,13 @@ impl ZSobol {
     fn shuffled(&self, dimension: u32) -> u64 {
         // With an odd exponent the last digit is a binary one, below the base-4 digits.
         let odd = self.log2_spp & 1;
-        let salt = (mix_bits((u64::from(dimension) + 1).wrapping_mul(0xd1b5_4a32_d192_ed03)) >> 32) as u32;
+        // Multiply-shift hashing (Dietzfelbinger 1996), the cheapest that is pairwise independent: one random line
+        // per dimension over the hashed digits above.
+        let slope = mix_bits((u64::from(dimension) + 1).wrapping_mul(0xd1b5_4a32_d192_ed03));
+        let offset = mix_bits(slope);
         let mut index = 0;
         for (k, &above) in (0u32..).zip(&self.above[..self.digits as usize]) {
-            let h = hash_digit(above ^ salt);
+            let h = (slope.wrapping_mul(u64::from(above)).wrapping_add(offset) >> 32) as u32;
             if k == 0 && odd == 1 {
                 index = (self.morton & 1) ^ u64::from(h >> 31);
                 continue;
@@ -90,12 +93,6 @@ impl ZSobol {
         }
         index
     }
-}
-
-const fn hash_digit(mut x: u32) -> u32 {
-    x = x.wrapping_mul(0x7feb_352d);
-    x ^= x >> 15;
-    x.wrapping_mul(0x846c_a68b)
 }
 
 /// Spreads the bits of `v` to the even places.

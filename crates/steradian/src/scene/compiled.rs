@@ -61,6 +61,7 @@ pub struct SceneLightSample {
 
 impl Scene {
     /// The first surface along the ray within `t_max` of its lengths.
+    #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SceneHit> {
         let hit = self.accel.intersect(ray, t_max, &|c: &Candidate| self.admits(ray, c))?;
         let point = self.accel.surface(ray, &hit, &self.shapes);

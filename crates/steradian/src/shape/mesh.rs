@@ -125,7 +125,13 @@ impl TriangleMesh {
     /// The geometric normal at barycentric (b₁, b₂): on the side of the shading normal if the mesh has normals,
     /// else from the winding and the orientation. `None` for a triangle without area.
     pub fn geometric_normal(&self, triangle: u32, b: [f32; 2]) -> Option<Normal> {
-        let n = rounding::normalized(cross(self.corners(triangle)))?;
+        self.oriented(cross(self.corners(triangle)), triangle, b)
+    }
+
+    /// The geometric normal from the triangle's area vector.
+    #[inline]
+    pub(super) fn oriented(&self, area_vector: DVec3, triangle: u32, b: [f32; 2]) -> Option<Normal> {
+        let n = rounding::normalized(area_vector)?;
         if !self.normals.is_empty() {
             let ns = interpolate(self.gather(&self.normals, triangle), b);
             return Some(n.facing(ns));
@@ -135,44 +141,33 @@ impl TriangleMesh {
 
     /// The point at barycentric (b₁, b₂). It lies in the plane of the triangle but for the final rounding.
     pub fn point_at(&self, triangle: u32, b: [f32; 2]) -> crate::math::BoundedPoint {
-        let [p0, p1, p2] = self.corners(triangle).map(|p| p.as_dvec3());
-        let (b1, b2) = (f64::from(b[0]), f64::from(b[1]));
-        let terms = [p0 * (1.0 - b1 - b2), p1 * b1, p2 * b2];
-        let magnitude = terms.iter().fold(DVec3::ZERO, |m, t| m + t.abs());
-        rounding::bounded(terms[0] + terms[1] + terms[2], magnitude)
+        blend(self.corners(triangle).map(|p| p.as_dvec3()), b)
     }
 
     /// Differential geometry at a hit.
+    #[inline]
     pub fn surface(&self, triangle: u32, hit: &PrimHit, time: f32) -> SurfacePoint {
         let b = [hit.u, hit.v];
         let corners = self.corners(triangle).map(|p| p.as_dvec3());
         let uvs = self.corner_uvs(triangle);
-        // A triangle that can be hit has an area; the fallback keeps a misuse finite.
-        let ng = self.geometric_normal(triangle, b).unwrap_or(Normal::Z);
         let (duv02, duv12) = (uvs[0] - uvs[2], uvs[1] - uvs[2]);
         let (dp02, dp12) = (corners[0] - corners[2], corners[1] - corners[2]);
+        let area_vector = dp02.cross(dp12);
+        // A triangle that can be hit has an area; the fallback keeps a misuse finite.
+        let ng = self.oriented(area_vector, triangle, b).unwrap_or(Normal::Z);
         let (dpdu, dpdv) = uv_derivatives(duv02, duv12, dp02, dp12)
             .map(|(du, dv)| (du.as_vec3(), dv.as_vec3()))
             .filter(|(du, dv)| du.is_finite() && dv.is_finite() && du.cross(*dv).length_squared() > 0.0)
             .unwrap_or_else(|| {
-                let n = rounding::normalized(cross(self.corners(triangle))).unwrap_or(Normal::Z);
-                let frame = Frame::from_z(n);
+                let frame = Frame::from_z(rounding::normalized(area_vector).unwrap_or(Normal::Z));
                 (frame.s, frame.t)
             });
         let face = self.face_indices.get(triangle as usize).copied().unwrap_or(0);
         let shading = self.shading(triangle, b, ng, dpdu, dpdv, duv02, duv12);
-        SurfacePoint {
-            p: self.point_at(triangle, b),
-            ng,
-            uv: interpolate(uvs, b),
-            dpdu,
-            dpdv,
-            shading,
-            time,
-            face,
-        }
+        SurfacePoint { p: blend(corners, b), ng, uv: interpolate(uvs, b), dpdu, dpdv, shading, time, face }
     }
 
+    #[inline]
     fn shading(
         &self,
         triangle: u32,
@@ -223,6 +218,14 @@ impl TriangleMesh {
 pub(super) fn cross([a, b, c]: [Point; 3]) -> DVec3 {
     let a = a.as_dvec3();
     (b.as_dvec3() - a).cross(c.as_dvec3() - a)
+}
+
+/// The point at barycentric (b₁, b₂) of the triangle.
+#[inline]
+pub(super) fn blend([p0, p1, p2]: [DVec3; 3], b: [f32; 2]) -> crate::math::BoundedPoint {
+    let (b1, b2) = (f64::from(b[0]), f64::from(b[1]));
+    let (t0, t1, t2) = (p0 * (1.0 - b1 - b2), p1 * b1, p2 * b2);
+    rounding::bounded(t0 + t1 + t2, t0.abs() + t1.abs() + t2.abs())
 }
 
 /// Value at barycentric (b₁, b₂) of corner values.

@@ -141,6 +141,7 @@ impl Shape {
     }
 
     /// Differential geometry where `ray` meets primitive `prim`.
+    #[inline]
     pub fn surface(&self, prim: u32, ray: &Ray, hit: &PrimHit) -> SurfacePoint {
         match self {
             Self::Mesh(s) => s.surface(prim, hit, ray.time),

@@ -3,7 +3,7 @@
 use super::contract::{ReferencePoint, ShapeSample, ShapeSampleToward, area_density_toward};
 use super::mesh::{self, TriangleMesh};
 use super::spherical::SphericalTriangle;
-use crate::math::{Dir, Normal, SurfacePoint, Vec2, warp};
+use crate::math::{Dir, Normal, Point, SurfacePoint, Vec2, warp};
 use crate::units::{PdfArea, PdfSolidAngle};
 use glam::DVec3;
 
@@ -26,7 +26,9 @@ impl TriangleMesh {
 
     /// Chooses a point by the solid angle at `from`, with the cosine at a shading normal warped in.
     pub fn sample_toward(&self, triangle: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
-        let Some(seen) = self.seen_from(triangle, from) else {
+        let corners = self.corners(triangle);
+        let area_vector = mesh::cross(corners);
+        let Some(seen) = seen_from(corners, area_vector, from) else {
             return self.sample_area(triangle, u)?.toward(from);
         };
         let (u, warp_pdf) = match from.ns {
@@ -38,11 +40,11 @@ impl TriangleMesh {
             None => (u, 1.0),
         };
         let b = seen.sample(u)?.map(|b| b as f32);
-        let p = self.point_at(triangle, b);
+        let p = mesh::blend(corners.map(|p| p.as_dvec3()), b);
         let density = PdfSolidAngle(warp_pdf / seen.solid_angle as f32);
         Some(ShapeSampleToward {
             p,
-            n: self.geometric_normal(triangle, b)?,
+            n: self.oriented(area_vector, triangle, b)?,
             uv: self.uv_at(triangle, b),
             wi: Dir::new(p.p - from.p.p)?,
             density,
@@ -57,7 +59,8 @@ impl TriangleMesh {
         wi: Dir,
         hit: &SurfacePoint,
     ) -> PdfSolidAngle {
-        let Some(seen) = self.seen_from(triangle, from) else {
+        let corners = self.corners(triangle);
+        let Some(seen) = seen_from(corners, mesh::cross(corners), from) else {
             return area_density_toward(PdfArea(1.0 / self.area(triangle)), from, wi, hit);
         };
         let uniform = (1.0 / seen.solid_angle) as f32;
@@ -69,15 +72,15 @@ impl TriangleMesh {
         };
         PdfSolidAngle(uniform * warp::bilinear_pdf(u, corner_weights(seen.corners, ns)))
     }
+}
 
-    /// The triangle as seen from the reference point if it is to be sampled by solid angle.
-    fn seen_from(&self, triangle: u32, from: &ReferencePoint) -> Option<SphericalTriangle> {
-        let v = self.corners(triangle);
-        if mesh::cross(v) == DVec3::ZERO {
-            return None;
-        }
-        SphericalTriangle::new(v, from.p.p).filter(|s| SPHERICAL_SAMPLING.contains(&s.solid_angle))
+/// The triangle as seen from the reference point if it is to be sampled by solid angle.
+#[inline]
+fn seen_from(corners: [Point; 3], area_vector: DVec3, from: &ReferencePoint) -> Option<SphericalTriangle> {
+    if area_vector == DVec3::ZERO {
+        return None;
     }
+    SphericalTriangle::new(corners, from.p.p).filter(|s| SPHERICAL_SAMPLING.contains(&s.solid_angle))
 }
 
 /// Cosines to the shading normal at the corners of the sample square: u.x = 0 is the edge v₀v₁ and u.y = 0 the

@@ -48,12 +48,21 @@ impl Shear {
 
     /// Intersects the triangle `v` at 0 < t ≤ `t_max`; `None` also for a triangle that is degenerate or seen edge-on.
     #[inline]
-    pub fn intersect(&self, v: [Point; 3], t_max: f32) -> Option<PrimHit> {
-        let permuted = v.map(|p| [p.0[self.axes[0]], p.0[self.axes[1]], p.0[self.axes[2]]]);
-        let [a, b, c] = permuted.map(|p| self.project(p));
+    pub fn intersect(&self, [a, b, c]: [Point; 3], t_max: f32) -> Option<PrimHit> {
+        let permuted = |p: Point| {
+            let p = p.0.to_array();
+            [p[self.axes[0]], p[self.axes[1]], p[self.axes[2]]]
+        };
+        self.intersect_permuted([permuted(a), permuted(b), permuted(c)], t_max)
+    }
+
+    /// [`Shear::intersect`] for a triangle whose coordinates are in the order of [`Shear::axes`] already.
+    #[inline]
+    pub fn intersect_permuted(&self, permuted: [[f32; 3]; 3], t_max: f32) -> Option<PrimHit> {
+        let (a, b, c) = (self.project(permuted[0]), self.project(permuted[1]), self.project(permuted[2]));
         let edges = [edge(c, b), edge(a, c), edge(b, a)];
-        let negative = edges.iter().any(|&e| e < 0.0);
-        let positive = edges.iter().any(|&e| e > 0.0);
+        let [u, v, w] = edges;
+        let (negative, positive) = ((u < 0.0) | (v < 0.0) | (w < 0.0), (u > 0.0) | (v > 0.0) | (w > 0.0));
         if negative == positive {
             // Either a miss, or all three vanish: nothing to hit.
             return None;
@@ -65,8 +74,9 @@ impl Shear {
     /// Distance and barycentrics of a pass that is already decided; rejects hits behind or at the origin.
     #[inline]
     fn locate(&self, v: [[f32; 3]; 3], edges: [f64; 3], side: f64, t_max: f32) -> Option<PrimHit> {
-        let o = DVec3::from(self.origin.map(f64::from));
-        let [a, b, c] = v.map(|p| DVec3::from(p.map(f64::from)) - o);
+        let wide = |p: [f32; 3]| DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]));
+        let o = wide(self.origin);
+        let (a, b, c) = (wide(v[0]) - o, wide(v[1]) - o, wide(v[2]) - o);
 
         // The origin must be in front: the sign of n·(a − o) is used only when it exceeds its rounding bound, so
         // that a ray that starts on the triangle does not meet it again.

@@ -23,7 +23,7 @@ pub fn bars(lambda: f32) -> [f32; 3] {
         return [0.0; 3];
     }
     let x = lambda - LAMBDA_MIN;
-    let i = (x as u32 as usize).min(SAMPLES - 2);
+    let i = (x as i32 as usize).min(SAMPLES - 2);
     let t = x - i as f32;
     let (a, b) = (MATCHING[i], MATCHING[i + 1]);
     std::array::from_fn(|c| a[c] * (1.0 - t) + b[c] * t)

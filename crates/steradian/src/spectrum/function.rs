@@ -3,7 +3,7 @@
 use super::blackbody::Blackbody;
 use super::cie;
 use super::rgb::{RgbAlbedo, RgbIlluminant, RgbUnbounded};
-use super::sampled::{LAMBDA_MAX, LAMBDA_MIN, Sampled, Wavelengths};
+use super::sampled::{LAMBDA_MAX, LAMBDA_MIN, LANES, Sampled, Wavelengths};
 use super::tabulated::{Dense, Tabulated};
 
 /// A function of wavelength. Its unit is its owner's business.
@@ -44,15 +44,15 @@ impl Spectrum {
         let l = w.lambda();
         match self {
             Self::Constant(v) => Sampled::splat(*v),
-            Self::Tabulated(t) => Sampled::from_array(l.map(|l| t.at(l))),
-            Self::Dense(d) => Sampled::from_array(l.map(|l| d.at(l))),
-            Self::Blackbody(b) => Sampled::from_array(l.map(|l| b.at(l))),
-            Self::RgbAlbedo(r) => Sampled::from_array(l.map(|l| r.sigmoid.at(l))),
-            Self::RgbUnbounded(r) => Sampled::from_array(l.map(|l| r.at(l))),
+            Self::Tabulated(t) => Sampled::from_array(at_each(l, |l| t.at(l))),
+            Self::Dense(d) => Sampled::from_array(at_each(l, |l| d.at(l))),
+            Self::Blackbody(b) => Sampled::from_array(at_each(l, |l| b.at(l))),
+            Self::RgbAlbedo(r) => Sampled::from_array(at_each(l, |l| r.sigmoid.at(l))),
+            Self::RgbUnbounded(r) => Sampled::from_array(at_each(l, |l| r.at(l))),
             Self::RgbIlluminant(r) => {
                 // Apart, because the table's gathers would keep the filter's arithmetic from being vectorised.
-                let filter = l.map(|l| r.scale * r.sigmoid.at(l));
-                let white = l.map(|l| r.illuminant.at(l));
+                let filter = at_each(l, |l| r.scale * r.sigmoid.at(l));
+                let white = at_each(l, |l| r.illuminant.at(l));
                 Sampled::from_fn(|i| filter[i] * white[i])
             }
         }
@@ -121,6 +121,16 @@ impl Spectrum {
     pub fn densely_sampled(&self) -> Dense {
         Dense::sample_function(LAMBDA_MIN, cie::SAMPLES, |l| self.at(l))
     }
+}
+
+/// A loop, because `array::map` is not always inlined, and then not vectorised.
+#[inline(always)]
+fn at_each(lambda: &[f32; LANES], f: impl Fn(f32) -> f32) -> [f32; LANES] {
+    let mut out = [0.0; LANES];
+    for (out, &lambda) in out.iter_mut().zip(lambda) {
+        *out = f(lambda);
+    }
+    out
 }
 
 #[cfg(test)]

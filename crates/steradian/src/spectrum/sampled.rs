@@ -132,8 +132,14 @@ impl<Q> Sampled<Q> {
     }
 
     /// From a function of the lane index.
-    pub fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
-        Self::from_array(std::array::from_fn(f))
+    #[inline]
+    pub fn from_fn(mut f: impl FnMut(usize) -> f32) -> Self {
+        // A loop: `array::from_fn` is not always inlined, and then not vectorised.
+        let mut v = [0.0; LANES];
+        for (lane, v) in v.iter_mut().enumerate() {
+            *v = f(lane);
+        }
+        Self::from_array(v)
     }
 
     /// The values, one per wavelength.
@@ -143,8 +149,9 @@ impl<Q> Sampled<Q> {
 
     /// Applies `f` per wavelength.
     #[must_use]
-    pub fn map(self, f: impl FnMut(f32) -> f32) -> Self {
-        Self::from_array(self.v.map(f))
+    #[inline]
+    pub fn map(self, mut f: impl FnMut(f32) -> f32) -> Self {
+        Self::from_fn(|lane| f(self.v[lane]))
     }
 
     /// The same numbers as another quantity. Each use is a change of unit and deserves its reason.

@@ -204,14 +204,17 @@ impl Dense {
     }
 
     /// The value at `lambda` [nm]; zero outside [`Dense::range`].
+    #[inline]
     pub fn at(&self, lambda: f32) -> f32 {
         let x = lambda - self.start;
         let last = self.value.len() - 1;
         if !(0.0..=last as f32).contains(&x) {
             return 0.0;
         }
-        let i = x as usize;
+        // Through i32, to which there is a machine instruction.
+        let i = x as i32;
         let t = x - i as f32;
+        let i = i as usize;
         let a = self.value[i];
         a + t * (self.value[(i + 1).min(last)] - a)
     }
