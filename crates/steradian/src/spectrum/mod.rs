@@ -9,7 +9,6 @@ pub mod sigmoid;
 pub mod rgb;
 pub mod function;
 pub mod named;
-pub mod cornell;
 
 pub use blackbody::Blackbody;
 pub use function::Spectrum;
