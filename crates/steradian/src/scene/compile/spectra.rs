@@ -2,13 +2,13 @@
 
 use crate::color::{ColorSpace, ColorSpaceKind, Rgb};
 use crate::math::Vec3;
-use crate::scene::desc::{SpectrumDesc, SpectrumValue};
+use crate::scene::desc::{FilmDesc, FilmKind, SpectrumDesc, SpectrumValue};
 use crate::scene::diagnostic::{Diagnostic, Diagnostics};
 use crate::scene::files::FileSystem;
 use crate::spectrum::blackbody::Blackbody;
 use crate::spectrum::named::{named, names};
 use crate::spectrum::tabulated::Tabulated;
-use crate::spectrum::{Spectrum, spd};
+use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, spd};
 use crate::units::Kelvin;
 
 /// What an RGB triple stands for, by the parameter that holds it.
@@ -26,11 +26,21 @@ pub(super) enum Meaning {
 pub(super) struct SpectrumCompiler<'a> {
     files: &'a dyn FileSystem,
     spaces: [Option<ColorSpace>; 4],
+    /// Wavelengths beyond 360–830 nm that the film records [nm]; data must reach as far.
+    beyond_visible: Option<[f32; 2]>,
 }
 
 impl<'a> SpectrumCompiler<'a> {
-    pub(super) fn new(files: &'a dyn FileSystem) -> Self {
-        Self { files, spaces: [const { None }; 4] }
+    pub(super) fn new(files: &'a dyn FileSystem, film: &FilmDesc) -> Self {
+        let beyond_visible = match film.kind {
+            FilmKind::Spectral { lambda_min, lambda_max, .. }
+                if lambda_min < LAMBDA_MIN || lambda_max > LAMBDA_MAX =>
+            {
+                Some([lambda_min, lambda_max])
+            }
+            FilmKind::Spectral { .. } | FilmKind::Rgb | FilmKind::GBuffer { .. } => None,
+        };
+        Self { files, spaces: [const { None }; 4], beyond_visible }
     }
 
     /// Place of a colour space in tables of all of them.
@@ -55,11 +65,25 @@ impl<'a> SpectrumCompiler<'a> {
         diagnostics: &mut Diagnostics,
     ) -> Spectrum {
         match self.try_compile(desc, meaning) {
-            Ok(spectrum) => spectrum,
+            Ok(spectrum) => {
+                self.check_range(desc, &spectrum, diagnostics);
+                spectrum
+            }
             Err(diagnostic) => {
                 diagnostics.push(*diagnostic);
                 Spectrum::Constant(0.0)
             }
+        }
+    }
+
+    /// Outside 360–830 nm nothing is extrapolated, and nothing is taken to be black that was merely not measured.
+    fn check_range(&self, desc: &SpectrumDesc, spectrum: &Spectrum, diagnostics: &mut Diagnostics) {
+        if let (Some([from, to]), Some((min, max))) = (self.beyond_visible, spectrum.range())
+            && (from < min || to > max)
+        {
+            let message =
+                format!("the film records {from}–{to} nm, but there are data for {min}–{max} nm only");
+            diagnostics.error(desc.span, message);
         }
     }
 
@@ -108,11 +132,10 @@ fn dense(spectrum: Spectrum) -> Spectrum {
 }
 
 fn tabulated(table: Tabulated) -> Spectrum {
-    use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN};
     let (min, max) = table.range();
-    let covers_film = min <= LAMBDA_MIN && max >= LAMBDA_MAX;
+    let is_visible = min == LAMBDA_MIN && max == LAMBDA_MAX;
     // Samples on whole nanometres are met exactly.
     let on_grid = table.samples().all(|(lambda, _)| lambda.fract() == 0.0);
     let spectrum = Spectrum::Tabulated(table);
-    if covers_film && on_grid { Spectrum::Dense(spectrum.densely_sampled()) } else { spectrum }
+    if is_visible && on_grid { Spectrum::Dense(spectrum.densely_sampled()) } else { spectrum }
 }

@@ -48,7 +48,7 @@ impl<'a> TextureCompiler<'a> {
     ) -> Self {
         let mut compiler = Self {
             textures: Textures::new(),
-            spectra: SpectrumCompiler::new(files),
+            spectra: SpectrumCompiler::new(files, &desc.film),
             diagnostics,
             desc,
             files,
