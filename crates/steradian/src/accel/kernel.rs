@@ -42,10 +42,11 @@ pub(super) trait Kernel: Copy {
     /// Which children's boxes the ray meets in [0, `t_max`] (bit per child), and where it enters them.
     ///
     /// Where a plane distance is 0·∞ = NaN (the ray runs in the plane of a face) the plane is ignored.
-    fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32) -> (u32, Entries);
+    fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32;
 
-    /// Which triangles the ray's line may pass (bit per lane): a superset of those that [`Shear::intersect`] accepts.
-    fn triangles(self, packet: &Packet, shear: &Shear) -> u32;
+    /// Which triangles the ray may meet in (0, `t_max`] (bit per lane): a superset of those that
+    /// [`Shear::intersect`] accepts.
+    fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> u32;
 
     /// Starts loading a node that will be needed soon.
     fn prefetch(self, node: &Node);
@@ -75,7 +76,7 @@ pub(super) struct Portable;
 
 impl Kernel for Portable {
     #[inline(always)]
-    fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32) -> (u32, Entries) {
+    fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32 {
         let mut enter = [0.0_f32; WIDTH];
         let mut exit = [t_max; WIDTH];
         for axis in 0..3 {
@@ -92,11 +93,12 @@ impl Kernel for Portable {
         for i in 0..WIDTH {
             mask |= u32::from(enter[i] <= exit[i] * EXIT_SLACK) << i;
         }
-        (mask, Entries(enter))
+        entries.0 = enter;
+        mask
     }
 
     #[inline(always)]
-    fn triangles(self, packet: &Packet, shear: &Shear) -> u32 {
+    fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> u32 {
         let [ax, ay, az] = shear.axes;
         let [sx, sy] = shear.factors;
         let [ox, oy, oz] = shear.origin;
@@ -105,18 +107,21 @@ impl Kernel for Portable {
             let z: [f32; LANES] = std::array::from_fn(|i| c[az][i] - oz);
             let x: [f32; LANES] = std::array::from_fn(|i| (c[ax][i] - ox) + sx * z[i]);
             let y: [f32; LANES] = std::array::from_fn(|i| (c[ay][i] - oy) + sy * z[i]);
-            (x, y)
+            (x, y, z)
         };
         let (a, b, c) = (project(0), project(1), project(2));
-        let edge = |p: &([f32; LANES], [f32; LANES]), q: &([f32; LANES], [f32; LANES]), i: usize| {
-            p.0[i] * q.1[i] - p.1[i] * q.0[i]
-        };
+        type Projected = ([f32; LANES], [f32; LANES], [f32; LANES]);
+        let edge = |p: &Projected, q: &Projected, i: usize| p.0[i] * q.1[i] - p.1[i] * q.0[i];
+        let limit = t_max * EXIT_SLACK;
         let mut mask = 0;
         for i in 0..LANES {
             let (u, v, w) = (edge(&c, &b, i), edge(&a, &c, i), edge(&b, &a, i));
             let negative = u < 0.0 || v < 0.0 || w < 0.0;
             let positive = u > 0.0 || v > 0.0 || w > 0.0;
-            mask |= u32::from(!(negative && positive)) << i;
+            let t = [a.2[i], b.2[i], c.2[i]].map(|z| z * shear.inverse_z);
+            let behind = t.iter().all(|&t| t < 0.0);
+            let beyond = t.iter().all(|&t| t > limit);
+            mask |= u32::from(!((negative && positive) || behind || beyond)) << i;
         }
         mask
     }
@@ -146,15 +151,15 @@ pub(super) mod avx2 {
 
     impl Kernel for Avx2 {
         #[inline(always)]
-        fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32) -> (u32, Entries) {
+        fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32 {
             // SAFETY: a value of this type exists only where AVX2 was detected.
-            unsafe { boxes(node, ray, t_max) }
+            unsafe { boxes(node, ray, t_max, entries) }
         }
 
         #[inline(always)]
-        fn triangles(self, packet: &Packet, shear: &Shear) -> u32 {
+        fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> u32 {
             // SAFETY: a value of this type exists only where AVX2 was detected.
-            unsafe { triangles(packet, shear) }
+            unsafe { triangles(packet, shear, t_max) }
         }
 
         #[inline(always)]
@@ -172,7 +177,7 @@ pub(super) mod avx2 {
 
     #[inline]
     #[target_feature(enable = "avx2")]
-    fn boxes(node: &Node, ray: &BoxRay, t_max: f32) -> (u32, Entries) {
+    fn boxes(node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32 {
         let distance = |row: usize, axis: usize| {
             // SAFETY: rows are 32-byte aligned arrays of eight f32.
             let plane = unsafe { _mm256_load_ps(node.bounds[row].as_ptr()) };
@@ -188,15 +193,14 @@ pub(super) mod avx2 {
         }
         let exit = _mm256_mul_ps(exit, _mm256_set1_ps(EXIT_SLACK));
         let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, exit)) as u32;
-        let mut entries = Entries([0.0; 8]);
         // SAFETY: the array is 32-byte aligned and holds eight f32.
         unsafe { _mm256_store_ps(entries.0.as_mut_ptr(), enter) };
-        (mask, entries)
+        mask
     }
 
     #[inline]
     #[target_feature(enable = "avx2")]
-    fn triangles(packet: &Packet, shear: &Shear) -> u32 {
+    fn triangles(packet: &Packet, shear: &Shear, t_max: f32) -> u32 {
         let [ax, ay, az] = shear.axes;
         let (sx, sy) = (_mm_set1_ps(shear.factors[0]), _mm_set1_ps(shear.factors[1]));
         let [ox, oy, oz] = shear.origin;
@@ -207,11 +211,12 @@ pub(super) mod avx2 {
             let z = _mm_sub_ps(load(az), oz);
             let x = _mm_add_ps(_mm_sub_ps(load(ax), ox), _mm_mul_ps(sx, z));
             let y = _mm_add_ps(_mm_sub_ps(load(ay), oy), _mm_mul_ps(sy, z));
-            (x, y)
+            (x, y, _mm_mul_ps(z, _mm_set1_ps(shear.inverse_z)))
         };
         let (a, b, c) = (project(0), project(1), project(2));
-        let edge =
-            |p: (__m128, __m128), q: (__m128, __m128)| _mm_sub_ps(_mm_mul_ps(p.0, q.1), _mm_mul_ps(p.1, q.0));
+        let edge = |p: (__m128, __m128, __m128), q: (__m128, __m128, __m128)| {
+            _mm_sub_ps(_mm_mul_ps(p.0, q.1), _mm_mul_ps(p.1, q.0))
+        };
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         let zero = _mm_setzero_ps();
         // A NaN (overflow) counts as neither sign and leaves the decision to the exact test.
@@ -219,6 +224,11 @@ pub(super) mod avx2 {
             _mm_or_ps(_mm_or_ps(_mm_cmplt_ps(u, zero), _mm_cmplt_ps(v, zero)), _mm_cmplt_ps(w, zero));
         let positive =
             _mm_or_ps(_mm_or_ps(_mm_cmpgt_ps(u, zero), _mm_cmpgt_ps(v, zero)), _mm_cmpgt_ps(w, zero));
-        !(_mm_movemask_ps(_mm_and_ps(negative, positive)) as u32) & 0xf
+        let missed = _mm_and_ps(negative, positive);
+        let nearest = _mm_min_ps(_mm_min_ps(a.2, b.2), c.2);
+        let farthest = _mm_max_ps(_mm_max_ps(a.2, b.2), c.2);
+        let behind = _mm_cmplt_ps(farthest, zero);
+        let beyond = _mm_cmpgt_ps(nearest, _mm_set1_ps(t_max * EXIT_SLACK));
+        !(_mm_movemask_ps(_mm_or_ps(missed, _mm_or_ps(behind, beyond))) as u32) & 0xf
     }
 }

@@ -7,9 +7,9 @@
 use super::contract::{Hit, InstanceId};
 #[cfg(target_arch = "x86_64")]
 use super::kernel::avx2::Avx2;
-use super::kernel::{BoxRay, Kernel, KernelChoice, Portable};
+use super::kernel::{BoxRay, Entries, Kernel, KernelChoice, Portable};
 use super::structure::Accel;
-use super::tree::{Child, Item, Owner, STACK, Target, Tree};
+use super::tree::{Child, Item, Owner, STACK, Target, Tree, WIDTH};
 use crate::math::Ray;
 use crate::shape::{PrimHit, ShapeId, watertight::Shear};
 use std::mem::MaybeUninit;
@@ -111,6 +111,7 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
 ) -> Verdict {
     let box_ray = BoxRay::new(ray);
     let shear = Shear::new(ray);
+    let mut entries = Entries([0.0; WIDTH]);
     let mut stack = Stack::new();
     stack.insert(0, Pending { child: Child::ROOT, enter: 0.0 });
     'pop: while let Some(Pending { child, enter }) = stack.pop() {
@@ -125,7 +126,7 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
             };
             // SAFETY: the builder refers only to nodes that it has made.
             let node = unsafe { tree.nodes.get_unchecked(index as usize) };
-            let (mut mask, entries) = kernel.boxes(node, &box_ray, query.t_max);
+            let mut mask = kernel.boxes(node, &box_ray, query.t_max, &mut entries);
             if mask == 0 {
                 continue 'pop;
             }
@@ -161,7 +162,7 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
         for index in first..first + count {
             // SAFETY: the builder refers only to packets that it has made.
             let packet = unsafe { tree.packets.get_unchecked(index as usize) };
-            let mut mask = kernel.triangles(packet, &shear);
+            let mut mask = kernel.triangles(packet, &shear, query.t_max);
             while mask != 0 {
                 let lane = mask.trailing_zeros() as usize & 3;
                 mask &= mask - 1;

@@ -18,7 +18,7 @@ pub(super) const STACK: usize = 7 * MAX_DEPTH as usize + 1;
 
 /// An inner node: the boxes of eight children, axis by axis, and where the children are.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(super) struct Node {
     /// Rows lo.x, hi.x, lo.y, hi.y, lo.z, hi.z; vacant children have lo = +∞ and hi = −∞.
     pub(super) bounds: [[f32; WIDTH]; 6],

@@ -182,7 +182,7 @@ fn irradiance_from_uniform_emitters_has_its_closed_form() {
         };
         // E = πL R²/(R² + h²) and E = πL (R/d)² cosθ.
         check(disk(&at(2.0)), 0.628_318_53, "disk");
-        check(sphere(&at(2.0)), 0.785_398_16, "sphere");
+        check(sphere(&at(2.0)), 0.25 * PI, "sphere");
         // Centred unit square at h = 1, and one corner of it; F = E/π (Lambert's polygon formula).
         let square = |c: Vec3| {
             patch(

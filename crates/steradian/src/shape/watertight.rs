@@ -18,6 +18,8 @@ pub struct Shear {
     pub factors: [f32; 2],
     /// Origin in permuted axes.
     pub origin: [f32; 3],
+    /// 1/d_z: turns depths into parametric distances, to relative accuracy 1.5 ε.
+    pub inverse_z: f32,
     d: DVec3,
 }
 
@@ -35,7 +37,13 @@ impl Shear {
         };
         let permuted = |v: [f32; 3]| axes.map(|axis| v[axis]);
         let (d, origin) = (permuted(ray.d.to_array()), permuted(ray.o.to_array()));
-        Self { axes, factors: [-d[0] / d[2], -d[1] / d[2]], origin, d: DVec3::from(d.map(f64::from)) }
+        Self {
+            axes,
+            factors: [-d[0] / d[2], -d[1] / d[2]],
+            origin,
+            inverse_z: 1.0 / d[2],
+            d: DVec3::from(d.map(f64::from)),
+        }
     }
 
     /// Projects a vertex along the ray. Every rounding here is part of the watertightness argument: whoever
