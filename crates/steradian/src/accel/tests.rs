@@ -1,7 +1,11 @@
 use super::*;
 use crate::math::hash::Pcg32;
 use crate::math::{AnimatedTransform, Dir, Normal, Point, Transform, Vec2, Vec3, warp};
-use crate::shape::{Cylinder, Disk, MeshData, Orientation, ShapeId, Sphere, TriangleMesh};
+use crate::shape::curve::{Basis, Degree, Profile};
+use crate::shape::{
+    BilinearMesh, Curve, CurveData, Cylinder, Disk, MeshData, Orientation, PatchData, ShapeId, Sphere,
+    TriangleMesh,
+};
 
 const OPAQUE: fn(&Candidate) -> bool = |_| true;
 
@@ -243,8 +247,26 @@ fn mixed_scene(rng: &mut Pcg32, scale: f32) -> Vec<Shape> {
         shapes.push(Shape::Sphere(Box::new(Sphere::new(1.0, -1.0, 0.7, 300.0, &t, o).unwrap())));
         shapes.push(Shape::Disk(Box::new(Disk::new(0.3, 1.0, 0.2, 300.0, &t, o).unwrap())));
         shapes.push(Shape::Cylinder(Box::new(Cylinder::new(0.5, -1.0, 1.0, 300.0, &t, o).unwrap())));
+        shapes.push(saddle(&t));
+        shapes.push(curve(&t, Vec3::new(0.3, 0.8, -0.2)));
     }
     shapes
+}
+
+fn saddle(t: &Transform) -> Shape {
+    let corners = [[-1.0, -1.0, 0.1], [1.0, -1.0, -0.1], [-1.0, 1.0, -0.1], [1.0, 1.0, 0.1]];
+    let positions = corners.map(|p| Point(Vec3::from(p))).to_vec();
+    let data = PatchData { indices: vec![[0, 1, 2, 3]], positions, ..Default::default() };
+    Shape::Bilinear(BilinearMesh::new(data, t, Orientation::AsDefined).unwrap())
+}
+
+/// From (−1, 0, 0) to (1, 0, 0), bent towards `bend`.
+fn curve(t: &Transform, bend: Vec3) -> Shape {
+    let points = [Vec3::NEG_X, -Vec3::X / 3.0 + bend, Vec3::X / 3.0 + bend, Vec3::X].map(Point).to_vec();
+    let (basis, degree, profile) = (Basis::Bezier, Degree::Cubic, Profile::Cylinder);
+    let data =
+        CurveData { points, basis, degree, profile, normals: vec![], widths: [0.2, 0.1], split_depth: 2 };
+    Shape::Curve(Curve::new(data, t, Orientation::AsDefined).unwrap())
 }
 
 #[test]
@@ -444,6 +466,8 @@ fn spawned_rays_leave_their_surface_at_every_scale_and_place() {
             leave_and_enter(&[Shape::Disk(Box::new(disk))], &world, center, size, false, seed);
             let cylinder = Cylinder::new(0.7, -1.0, 1.0, 360.0, &t, o).unwrap();
             leave_and_enter(&[Shape::Cylinder(Box::new(cylinder))], &world, center, size, false, seed);
+            leave_and_enter(&[saddle(&t)], &world, center, size, false, seed);
+            leave_and_enter(&[curve(&t, Vec3::ZERO)], &world, center, size, false, seed);
             let instances =
                 vec![Instance { object: ObjectId(0), render_from_object: AnimatedTransform::fixed(t) }];
             let layout = Layout { objects: vec![vec![ShapeId(0)]], instances, ..Layout::default() };
