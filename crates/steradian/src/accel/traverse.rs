@@ -109,6 +109,11 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
     instance: Option<InstanceId>,
     query: &mut Query<'_, F>,
 ) -> Verdict {
+    // A NaN passes every box, empty slots included: the stack would overflow. Paths reach such places in scenes whose
+    // numbers are near the end of the range of floats.
+    if !(ray.o.is_finite() && ray.d.is_finite()) {
+        return Verdict::Continue;
+    }
     let box_ray = BoxRay::new(ray);
     let shear = Shear::new(ray);
     let mut entries = Entries([0.0; WIDTH]);

@@ -10,5 +10,5 @@ pub mod triple;
 pub use crate::spectrum::cie;
 pub use adaptation::{Adaptation, ConeModel};
 pub use space::{ColorSpace, ColorSpaceKind, Factored, OutOfRange};
-pub use table::UpsamplingTable;
+pub use table::{UpsamplingTable, UpsamplingTables};
 pub use triple::{Chromaticity, Rgb, Xyz};

@@ -1,9 +1,10 @@
 //! Precomputed sigmoid coefficients, for texels.
 
-use super::space::{ColorSpace, clamped};
+use super::space::{ColorSpace, ColorSpaceKind, clamped};
 use super::triple::Rgb;
 use crate::spectrum::Sigmoid;
 use glam::{DVec3, Vec3A};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Nodes along each axis.
 const N: usize = 32;
@@ -139,6 +140,27 @@ impl UpsamplingTable {
         let slice = |dz| row(dz, 0).lerp(row(dz, 1), y.fraction);
         let c = slice(0).lerp(slice(1), z.fraction);
         Sigmoid { c0: c.x, c1: c.y, c2: c.z }
+    }
+}
+
+/// The tables of all colour spaces, each fitted when it is first asked for and shared from then on: by pictures and lights,
+/// and by as many scenes as are compiled with the same value. Clones share.
+#[derive(Clone, Debug, Default)]
+pub struct UpsamplingTables(Arc<Mutex<[Option<Arc<UpsamplingTable>>; ColorSpaceKind::ALL.len()]>>);
+
+impl UpsamplingTables {
+    /// No tables yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The table of a colour space.
+    pub fn get(&self, space: &ColorSpace) -> Arc<UpsamplingTable> {
+        // A table is complete once it is in its slot, whatever happened to the thread that put it there.
+        let mut slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(
+            slots[space.kind() as usize].get_or_insert_with(|| Arc::new(UpsamplingTable::build(space))),
+        )
     }
 }
 

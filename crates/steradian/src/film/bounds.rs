@@ -15,13 +15,6 @@ impl PixelBounds {
         Self { min: [0, 0], max: [width as i32, height as i32] }
     }
 
-    /// The pixels of a crop window [x0, x1, y0, y1] in fractions of the film; each edge is rounded up, so that
-    /// adjacent windows tile the film. Fractions are limited to [0, 1].
-    pub fn from_crop([width, height]: [u32; 2], [x0, x1, y0, y1]: [f32; 4]) -> Self {
-        let edge = |fraction: f32, size: u32| (fraction.clamp(0.0, 1.0) * size as f32).ceil() as i32;
-        Self { min: [edge(x0, width), edge(y0, height)], max: [edge(x1, width), edge(y1, height)] }
-    }
-
     /// The common part; empty when there is none.
     #[must_use]
     pub fn intersect(&self, other: &Self) -> Self {
@@ -90,19 +83,5 @@ mod tests {
             tile.pixels().for_each(|p| seen[bounds.index(p).unwrap()] += 1);
         }
         assert!(seen.iter().all(|&n| n == 1));
-    }
-
-    #[test]
-    fn adjacent_crops_meet_without_gap_or_overlap() {
-        for width in [7, 100, 1281] {
-            let cuts = [0.0, 0.1, 0.37, 0.5, 0.99, 1.0];
-            let mut next = 0;
-            for pair in cuts.windows(2) {
-                let b = PixelBounds::from_crop([width, 1], [pair[0], pair[1], 0.0, 1.0]);
-                assert_eq!(b.min[0], next);
-                next = b.max[0];
-            }
-            assert_eq!(next, width as i32);
-        }
     }
 }

@@ -44,9 +44,14 @@ impl<'a> Lookup<'a> {
             eta.at(self.wavelengths.lambda()[0])
         });
         // Zero stands for "no value" in scene files: a medium without contrast.
-        if value > 0.0 { value } else { 1.0 }
+        if value > 0.0 { value.clamp(MIN_INDEX, MAX_INDEX) } else { 1.0 }
     }
 }
+
+/// Indices of refraction that no substance reaches, in whichever direction the interface is crossed; beyond them Snell's law
+/// runs out of floats.
+const MAX_INDEX: f32 = 1000.0;
+const MIN_INDEX: f32 = 1.0 / MAX_INDEX;
 
 /// What a number for the roughness means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

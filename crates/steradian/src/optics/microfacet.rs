@@ -9,6 +9,9 @@ const SMOOTH_ALPHA: f32 = 1e-3;
 /// Narrowest lobe along one axis of an anisotropic distribution: D stays finite in f32.
 const MIN_ALPHA: f32 = 1e-4;
 
+/// Steepest facets: a hundred times beyond the roughest surfaces, and far from where D underflows.
+const MAX_ALPHA: f32 = 100.0;
+
 /// Microfacets whose slopes follow Trowbridge & Reitz 1975, with Smith's height-correlated shadowing
 /// (Walter et al. 2007; Heitz 2014; pbrt-v4 book, 9.6).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +29,8 @@ impl TrowbridgeReitz {
         debug_assert!(alpha_x >= 0.0 && alpha_y >= 0.0, "{alpha_x} {alpha_y}");
         let mut d = Self { alpha_x, alpha_y };
         if !d.is_smooth() {
-            d.alpha_x = alpha_x.max(MIN_ALPHA);
-            d.alpha_y = alpha_y.max(MIN_ALPHA);
+            d.alpha_x = alpha_x.clamp(MIN_ALPHA, MAX_ALPHA);
+            d.alpha_y = alpha_y.clamp(MIN_ALPHA, MAX_ALPHA);
         }
         d
     }

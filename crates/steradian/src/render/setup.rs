@@ -22,6 +22,9 @@ pub enum RenderError {
     /// The sensor.
     #[error(transparent)]
     Sensor(#[from] SensorError),
+    /// The machine refuses to give the memory.
+    #[error("the film needs {0} MiB of memory, more than this machine gives")]
+    Memory(u64),
     /// The picture could not be put together.
     #[error(transparent)]
     Frame(#[from] ImageError),
@@ -52,19 +55,23 @@ pub(super) fn film(job: &RenderJob) -> Result<Film, RenderError> {
             FilmKind::Spectral(SpectralBins { count: n_buckets, min: lambda_min, max: lambda_max })
         }
     };
-    Ok(Film::new(d.resolution, bounds(d), filter, sensor, kind, space)?)
+    let film = Film::new(d.resolution, bounds(d), filter, sensor, kind, space)?;
+    check_memory(&film)?;
+    Ok(film)
+}
+
+/// Asks for the memory of all tiles at once and gives it back: where that is refused, a message is better than an abort.
+fn check_memory(film: &Film) -> Result<(), RenderError> {
+    let b = film.bounds();
+    let pixel = PixelBounds { min: b.min, max: [b.min[0] + 1, b.min[1] + 1] };
+    let bytes = film.tile(pixel).bytes().saturating_mul(b.area());
+    let mut probe: Vec<u8> = Vec::new();
+    probe.try_reserve_exact(bytes).map_err(|_| RenderError::Memory((bytes >> 20) as u64))
 }
 
 fn bounds(film: &desc::FilmDesc) -> PixelBounds {
-    let mut bounds = PixelBounds::full(film.resolution);
-    if let Some(crop) = film.crop_window {
-        bounds = bounds.intersect(&PixelBounds::from_crop(film.resolution, crop));
-    }
-    if let Some(b) = film.pixel_bounds {
-        let [x0, x1, y0, y1] = b.map(|v| i32::try_from(v).unwrap_or(i32::MAX));
-        bounds = bounds.intersect(&PixelBounds { min: [x0, y0], max: [x1, y1] });
-    }
-    bounds
+    let [x0, x1, y0, y1] = film.window().map(|v| i32::try_from(v).unwrap_or(i32::MAX));
+    PixelBounds { min: [x0, y0], max: [x1, y1] }
 }
 
 /// Settings of a job that belong into the picture's metadata, as names and values.

@@ -97,6 +97,15 @@ impl FileSystem for MemoryFiles {
     }
 }
 
+/// What went wrong with a file, without the operating system's numbers.
+pub(super) fn reason(e: &io::Error) -> String {
+    match e.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => e.to_string(),
+    }
+}
+
 fn decompress_if_gz(path: &Path, bytes: FileBytes) -> io::Result<FileBytes> {
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("gz")) {
         return Ok(bytes);

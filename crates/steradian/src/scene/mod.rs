@@ -26,7 +26,7 @@ pub mod compiled;
 pub mod job;
 pub mod overrides;
 
-pub use compile::compile;
+pub use compile::{compile, compile_with_tables};
 pub use compiled::{Scene, SceneHit, SceneLightSample, ShapeAttributes};
 pub use job::{Jitter, PathSettings, RenderJob, Sampling};
 pub use overrides::{OverrideError, Overrides};

@@ -1,12 +1,12 @@
 //! Settings given outside the scene, which win over the scene's own.
 
-use super::desc::{IntegratorKind, PathDesc, SamplerKind, SceneDesc};
+use super::desc::{IntegratorKind, MAX_SAMPLES, PathDesc, SamplerKind, SceneDesc};
 use super::diagnostic::nearest;
 
 /// What a user may change without touching the scene; `None` leaves the scene's value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
-    /// Samples per pixel, ≥ 1.
+    /// Samples per pixel, from 1 to [`MAX_SAMPLES`].
     pub spp: Option<u32>,
     /// Width and height [pixels], ≥ 1.
     pub resolution: Option<[u32; 2]>,
@@ -35,6 +35,9 @@ pub enum OverrideError {
     /// A count of zero, or a crop window without area.
     #[error("{0} must be positive")]
     NotPositive(&'static str),
+    /// More samples per pixel than a sequence has.
+    #[error("{0} samples per pixel are more than the {MAX_SAMPLES} that a pixel can have")]
+    TooManySamples(u32),
 }
 
 fn hint(suggestion: Option<&str>) -> String {
@@ -56,6 +59,9 @@ impl Overrides {
         if let Some(spp) = self.spp {
             if spp == 0 {
                 return Err(OverrideError::NotPositive("samples per pixel"));
+            }
+            if spp > MAX_SAMPLES {
+                return Err(OverrideError::TooManySamples(spp));
             }
             desc.sampler.pixel_samples = spp;
             // Strata are a count of samples, too: keep them as square as the new count allows.

@@ -27,6 +27,7 @@ use crate::image::Pyramid;
 use crate::math::Vec2;
 use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::Unitless;
+use std::sync::Arc;
 use upsampling::ColorTable;
 
 /// A number-valued texture.
@@ -146,7 +147,7 @@ impl Textures {
     }
 
     /// Adds a colour space with the table that was built from it.
-    pub fn push_color_space(&mut self, space: &ColorSpace, table: UpsamplingTable) -> ColorTableId {
+    pub fn push_color_space(&mut self, space: &ColorSpace, table: Arc<UpsamplingTable>) -> ColorTableId {
         self.colors.push(ColorTable::new(space, table));
         ColorTableId(self.colors.len() as u32 - 1)
     }
@@ -456,7 +457,7 @@ mod tests {
     fn pictures_of_colour_become_the_spectra_of_their_colour() {
         let space = ColorSpace::new(ColorSpaceKind::Srgb);
         let mut t = Textures::new();
-        let colors = t.push_color_space(&space, UpsamplingTable::build(&space));
+        let colors = t.push_color_space(&space, Arc::new(UpsamplingTable::build(&space)));
         let image = t.push_image(one_texel(Layout::Rgb, vec![204, 51, 102]));
         let rgb = Rgb::new(0.8, 0.2, 0.4);
         let w = wavelengths();

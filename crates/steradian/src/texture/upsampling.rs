@@ -3,6 +3,7 @@
 use crate::color::{ColorSpace, Factored, Rgb, UpsamplingTable};
 use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::Unitless;
+use std::sync::Arc;
 
 /// A colour space in the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,13 +23,13 @@ pub enum SpectrumUse {
 /// The spectra of a colour space's RGB triples.
 #[derive(Clone, Debug)]
 pub(super) struct ColorTable {
-    table: UpsamplingTable,
+    table: Arc<UpsamplingTable>,
     illuminant: Spectrum,
 }
 
 impl ColorTable {
     /// `table` must have been built from `space`.
-    pub(super) fn new(space: &ColorSpace, table: UpsamplingTable) -> Self {
+    pub(super) fn new(space: &ColorSpace, table: Arc<UpsamplingTable>) -> Self {
         Self { table, illuminant: space.illuminant().clone() }
     }
 

@@ -3,7 +3,7 @@
 use crate::math::Transform;
 use crate::scene::desc::{CurveBasis, CurveDesc, CurveKind, FileRef, MeshDesc, ShapeKind};
 use crate::scene::diagnostic::Diagnostics;
-use crate::scene::files::FileSystem;
+use crate::scene::files::{FileSystem, reason};
 use crate::scene::import::ply;
 use crate::scene::source::Span;
 use crate::shape::curve::{Basis, Degree, Profile};
@@ -22,8 +22,12 @@ pub(super) fn build(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Shape> {
     let t = render_from_object;
+    let mut place = span;
     let built = match kind {
-        ShapeKind::PlyMesh { file } => ply(&file, t, orientation, files),
+        ShapeKind::PlyMesh { file } => {
+            place = file.span;
+            ply(&file, t, orientation, files)
+        }
         ShapeKind::TriangleMesh(mesh) => {
             TriangleMesh::new(triangles(mesh), t, orientation).map(|m| vec![Shape::Mesh(m)]).map_err(text)
         }
@@ -56,7 +60,7 @@ pub(super) fn build(
         }
     };
     built.unwrap_or_else(|message| {
-        diagnostics.error(span, message);
+        diagnostics.error(place, message);
         Vec::new()
     })
 }
@@ -110,7 +114,7 @@ fn ply(
     files: &dyn FileSystem,
 ) -> Result<Vec<Shape>, String> {
     let failed = |e: &dyn std::fmt::Display| format!("cannot read mesh {}: {e}", file.path.display());
-    let bytes = files.read(&file.path).map_err(|e| failed(&e))?;
+    let bytes = files.read(&file.path).map_err(|e| failed(&reason(&e)))?;
     let mesh = ply::parse(&bytes).map_err(|e| failed(&e))?;
     let mut shapes = Vec::new();
     if !mesh.quads.is_empty() {

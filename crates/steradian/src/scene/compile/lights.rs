@@ -2,10 +2,9 @@
 
 use super::pictures;
 use super::shapes::EmittingShape;
-use super::spectra::{Meaning, SpectrumCompiler};
+use super::spectra::Meaning;
 use super::textures::TextureCompiler;
 use super::view::rebase;
-use crate::color::UpsamplingTable;
 use crate::image::Image;
 use crate::light::{
     Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight,
@@ -18,16 +17,15 @@ use crate::scene::desc::{
 };
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::files::FileSystem;
+use crate::scene::source::Span;
 use crate::shape::Shape;
 use crate::spectrum::Spectrum;
-use std::sync::Arc;
 
-/// Compiles lights; pictures of light share one upsampling table.
+/// Compiles lights.
 pub(super) struct LightCompiler<'a, 'b> {
     pub(super) files: &'a dyn FileSystem,
     pub(super) textures: &'b mut TextureCompiler<'a>,
     pub(super) render_from_world: Transform,
-    pub(super) tables: [Option<Arc<UpsamplingTable>>; 4],
 }
 
 impl LightCompiler<'_, '_> {
@@ -107,14 +105,19 @@ impl LightCompiler<'_, '_> {
                     .map(|l| Light::ImageInfinite(Box::new(l)))
             }
         };
-        self.report(light, desc.span)
+        let place = match (&light, &desc.kind) {
+            (
+                Err(LightError::NotSquare(..) | LightError::Black),
+                LightKind::Goniometric { file, .. }
+                | LightKind::Projection { file, .. }
+                | LightKind::ImageInfinite { file, .. },
+            ) => file.span,
+            _ => desc.span,
+        };
+        self.report(light, place)
     }
 
-    fn report(
-        &mut self,
-        light: Result<Light, LightError>,
-        span: crate::scene::source::Span,
-    ) -> Option<Light> {
+    fn report(&mut self, light: Result<Light, LightError>, span: Span) -> Option<Light> {
         light.map_err(|e| self.textures.diagnostics.error(span, e.to_string())).ok()
     }
 
@@ -129,10 +132,8 @@ impl LightCompiler<'_, '_> {
 
     fn emission(&mut self, image: Image) -> EmissionPicture {
         let kind = image.color_space();
-        let space = self.textures.spectra.space(kind);
-        let table = self.tables[SpectrumCompiler::slot(kind)]
-            .get_or_insert_with(|| Arc::new(UpsamplingTable::build(space)));
-        EmissionPicture::new(image, Arc::clone(table), space)
+        let table = self.textures.spectra.table(kind);
+        EmissionPicture::new(image, table, self.textures.spectra.space(kind))
     }
 
     /// A picture of all directions. One of twice the width is taken for latitude and longitude, which pbrt-v4 refuses.

@@ -2,6 +2,7 @@
 //!
 //! All faults are collected; a scene comes out only when there is none.
 
+mod film;
 mod geometry;
 mod integrator;
 mod lights;
@@ -14,11 +15,11 @@ mod view;
 
 use super::compiled::Scene;
 use super::desc::{MaterialKind, SceneDesc};
-use super::diagnostic::{Diagnostic, Diagnostics, Severity};
+use super::diagnostic::Diagnostics;
 use super::files::FileSystem;
 use super::job::{Jitter, RenderJob, Sampling};
 use crate::accel::Accel;
-use crate::color::ColorSpace;
+use crate::color::{ColorSpace, UpsamplingTables};
 use crate::light::{Light, LightId, LightSampler};
 use integrator::CausticRisk;
 use lights::LightCompiler;
@@ -26,9 +27,15 @@ use shapes::{Geometry, ShapeCompiler, ShapeSet};
 use textures::TextureCompiler;
 
 /// Compiles a description. `None` when there are errors, all of which are added to `diagnostics`.
-pub fn compile(
+pub fn compile(desc: SceneDesc, files: &dyn FileSystem, diagnostics: &mut Diagnostics) -> Option<RenderJob> {
+    compile_with_tables(desc, files, &UpsamplingTables::new(), diagnostics)
+}
+
+/// The same as [`compile`], with tables that earlier scenes have built: they cost half a second each.
+pub fn compile_with_tables(
     mut desc: SceneDesc,
     files: &dyn FileSystem,
+    tables: &UpsamplingTables,
     diagnostics: &mut Diagnostics,
 ) -> Option<RenderJob> {
     let geometry = Geometry::take(&mut desc);
@@ -37,9 +44,10 @@ pub fn compile(
     let camera = view::camera(&desc.camera, desc.film.resolution, &render_from_world)
         .map_err(|e| diagnostics.error(desc.camera.span, e.to_string()))
         .ok();
+    film::check(&desc.film, &desc.camera, diagnostics);
     let kind = view::sampler_kind(&desc.sampler, diagnostics);
 
-    let mut textures = TextureCompiler::new(desc, files, render_from_world, diagnostics);
+    let mut textures = TextureCompiler::new(desc, files, tables, render_from_world, diagnostics);
     let materials = materials::compile(&desc.materials, files, &mut textures);
     let mut set = ShapeCompiler {
         files,
@@ -52,8 +60,7 @@ pub fn compile(
     .compile(geometry);
 
     let mut lights: Vec<Light> = Vec::new();
-    let mut compiler =
-        LightCompiler { files, textures: &mut textures, render_from_world, tables: Default::default() };
+    let mut compiler = LightCompiler { files, textures: &mut textures, render_from_world };
     for emitting in &set.emitters {
         let index = emitting.shape.0 as usize;
         if let Some(light) = compiler.area(desc, emitting, &set.shapes[index]) {
@@ -71,14 +78,10 @@ pub fn compile(
     let path = integrator::choose(&desc.integrator, risk, diagnostics);
     let selection = integrator::selection(&desc.integrator, diagnostics);
     let accel = Accel::build(&set.shapes, &set.layout)
-        .map_err(|e| push_unlocated(diagnostics, Severity::Error, e.to_string()))
+        .map_err(|e| diagnostics.error(set.span_of(&e).unwrap_or(desc.span), e.to_string()))
         .ok();
     if lights.is_empty() {
-        push_unlocated(
-            diagnostics,
-            Severity::Warning,
-            "the scene has no light: the picture will be black".into(),
-        );
+        diagnostics.warning(desc.span, "the scene has no light: the picture will be black");
     }
     let (camera, accel) = (camera?, accel?);
     if diagnostics.has_errors() {
@@ -121,10 +124,6 @@ pub fn compile(
 /// The sampler's own seed wins over that of the options.
 fn seed(desc: &SceneDesc) -> u64 {
     u64::from(desc.sampler.seed.unwrap_or(desc.options.seed).cast_unsigned())
-}
-
-fn push_unlocated(diagnostics: &mut Diagnostics, severity: Severity, message: String) {
-    diagnostics.push(Diagnostic { severity, message, span: None, help: None, related: Vec::new() });
 }
 
 /// Whether a material may scatter into single directions, which no light sample can meet.

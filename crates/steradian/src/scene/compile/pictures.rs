@@ -3,7 +3,7 @@
 use crate::image::{ColorEncoding, Image, ImageError, decode};
 use crate::scene::desc::FileRef;
 use crate::scene::diagnostic::Diagnostics;
-use crate::scene::files::FileSystem;
+use crate::scene::files::{FileSystem, reason};
 use std::path::Path;
 
 /// Reads a picture file, sRGB where neither its format nor the scene says otherwise; failure is reported at the place that names it.
@@ -14,7 +14,7 @@ pub(super) fn read(
     diagnostics: &mut Diagnostics,
 ) -> Option<Image> {
     let read = || -> Result<Image, String> {
-        let bytes = files.read(&file.path).map_err(|e| e.to_string())?;
+        let bytes = files.read(&file.path).map_err(|e| reason(&e))?;
         decode(&bytes, &extension(&file.path), encoding.unwrap_or(ColorEncoding::Srgb))
             .map_err(|e: ImageError| e.to_string())
     };

@@ -4,13 +4,14 @@ use super::geometry;
 use super::materials::CompiledMaterials;
 use super::textures::TextureCompiler;
 use super::view::rebase;
-use crate::accel::{Coverage, Instance, Layout, ObjectId};
+use crate::accel::{AccelError, Coverage, Instance, Layout, ObjectId};
 use crate::math::{AnimatedTransform, Transform};
 use crate::scene::compiled::ShapeAttributes;
 use crate::scene::desc::{
     AreaLightDesc, FileRef, Id, MaterialDesc, MaterialKind, SceneDesc, ShapeDesc, ShapeKind,
 };
 use crate::scene::files::FileSystem;
+use crate::scene::source::Span;
 use crate::shape::{Orientation, Shape, ShapeId};
 use crate::texture::FloatInput;
 
@@ -20,8 +21,26 @@ pub(super) struct ShapeSet {
     pub(super) shapes: Vec<Shape>,
     pub(super) attributes: Vec<ShapeAttributes>,
     pub(super) layout: Layout,
+    /// The statement of each shape, and of each instance of the layout.
+    spans: Vec<Span>,
+    instance_spans: Vec<Span>,
     /// Shapes that emit, for the light compiler.
     pub(super) emitters: Vec<EmittingShape>,
+}
+
+impl ShapeSet {
+    /// The statement that an error of the acceleration structure is about, where it is about one.
+    pub(super) fn span_of(&self, error: &AccelError) -> Option<Span> {
+        match error {
+            AccelError::NoSuchShape { shape, .. } | AccelError::UnboundedShape { shape, .. } => {
+                self.spans.get(*shape as usize).copied()
+            }
+            AccelError::NoSuchObject { instance, .. } | AccelError::UnboundedInstance { instance } => {
+                self.instance_spans.get(*instance).copied()
+            }
+            _ => None,
+        }
+    }
 }
 
 /// A shape with an area light.
@@ -46,7 +65,7 @@ pub(super) struct ShapeCompiler<'a, 'b> {
 pub(super) struct Geometry {
     shapes: Vec<ShapeDesc>,
     objects: Vec<Vec<ShapeDesc>>,
-    instances: Vec<(usize, AnimatedTransform)>,
+    instances: Vec<(usize, AnimatedTransform, Span)>,
 }
 
 impl Geometry {
@@ -58,7 +77,7 @@ impl Geometry {
             instances: desc
                 .instances
                 .iter()
-                .map(|i| (i.object.index(), i.world_from_instance.clone()))
+                .map(|i| (i.object.index(), i.world_from_instance.clone(), i.span))
                 .collect(),
         }
     }
@@ -80,7 +99,8 @@ impl ShapeCompiler<'_, '_> {
             }
             self.set.layout.objects.push(object);
         }
-        for (object, world_from_instance) in geometry.instances {
+        for (object, world_from_instance, span) in geometry.instances {
+            self.set.instance_spans.push(span);
             let render_from_object = rebase(&self.render_from_world, &world_from_instance);
             self.set.layout.instances.push(Instance { object: ObjectId(object as u32), render_from_object });
         }
@@ -102,6 +122,7 @@ impl ShapeCompiler<'_, '_> {
             self.textures.diagnostics.error(shape.span, "an area light on a moving shape is not supported");
             return;
         }
+        self.set.instance_spans.push(shape.span);
         let object = ObjectId(self.set.layout.objects.len() as u32);
         let ids = self.add(shape, &Transform::IDENTITY);
         self.set.layout.objects.push(ids);
@@ -145,6 +166,7 @@ impl ShapeCompiler<'_, '_> {
         for shape in pieces {
             let id = ShapeId(self.set.shapes.len() as u32);
             self.set.shapes.push(shape);
+            self.set.spans.push(span);
             self.set.layout.coverage.push(coverage);
             self.set.attributes.push(ShapeAttributes {
                 material: self.materials.id(desc.material),

@@ -1,15 +1,16 @@
 //! From the ways to state a spectrum to functions of wavelength.
 
-use crate::color::{ColorSpace, ColorSpaceKind, Rgb};
+use crate::color::{ColorSpace, ColorSpaceKind, Rgb, UpsamplingTable, UpsamplingTables};
 use crate::math::Vec3;
 use crate::scene::desc::{FilmDesc, FilmKind, SpectrumDesc, SpectrumValue};
 use crate::scene::diagnostic::{Diagnostic, Diagnostics};
-use crate::scene::files::FileSystem;
+use crate::scene::files::{FileSystem, reason};
 use crate::spectrum::blackbody::Blackbody;
 use crate::spectrum::named::{named, names};
 use crate::spectrum::tabulated::Tabulated;
 use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, spd};
 use crate::units::Kelvin;
+use std::sync::Arc;
 
 /// What an RGB triple stands for, by the parameter that holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,13 +26,18 @@ pub(super) enum Meaning {
 /// Converts spectra; colour spaces are set up once, when the first colour in them is met.
 pub(super) struct SpectrumCompiler<'a> {
     files: &'a dyn FileSystem,
+    tables: &'a UpsamplingTables,
     spaces: [Option<ColorSpace>; 4],
     /// Wavelengths beyond 360–830 nm that the film records [nm]; data must reach as far.
     beyond_visible: Option<[f32; 2]>,
 }
 
 impl<'a> SpectrumCompiler<'a> {
-    pub(super) fn new(files: &'a dyn FileSystem, film: &FilmDesc) -> Self {
+    pub(super) fn new(
+        files: &'a dyn FileSystem,
+        tables: &'a UpsamplingTables,
+        film: &FilmDesc,
+    ) -> Self {
         let beyond_visible = match film.kind {
             FilmKind::Spectral { lambda_min, lambda_max, .. }
                 if lambda_min < LAMBDA_MIN || lambda_max > LAMBDA_MAX =>
@@ -40,21 +46,18 @@ impl<'a> SpectrumCompiler<'a> {
             }
             FilmKind::Spectral { .. } | FilmKind::Rgb | FilmKind::GBuffer { .. } => None,
         };
-        Self { files, spaces: [const { None }; 4], beyond_visible }
+        Self { files, tables, spaces: [const { None }; 4], beyond_visible }
     }
 
-    /// Place of a colour space in tables of all of them.
-    pub(super) fn slot(kind: ColorSpaceKind) -> usize {
-        match kind {
-            ColorSpaceKind::Srgb => 0,
-            ColorSpaceKind::DciP3 => 1,
-            ColorSpaceKind::Rec2020 => 2,
-            ColorSpaceKind::Aces2065_1 => 3,
-        }
-    }
-
+    /// A colour space, set up when it is first asked for.
     pub(super) fn space(&mut self, kind: ColorSpaceKind) -> &ColorSpace {
-        self.spaces[Self::slot(kind)].get_or_insert_with(|| ColorSpace::new(kind))
+        self.spaces[kind as usize].get_or_insert_with(|| ColorSpace::new(kind))
+    }
+
+    /// The upsampling table of a colour space, built when the first coloured picture needs it.
+    pub(super) fn table(&mut self, kind: ColorSpaceKind) -> Arc<UpsamplingTable> {
+        let tables = self.tables;
+        tables.get(self.space(kind))
     }
 
     /// The spectrum that `desc` states; an error is reported and replaced by zero, so that all others are found, too.
@@ -113,7 +116,7 @@ impl<'a> SpectrumCompiler<'a> {
             })?,
             SpectrumValue::File(path) => {
                 let failed = |e: String| error(format!("cannot read spectrum file {}: {e}", path.display()));
-                let bytes = self.files.read(path).map_err(|e| failed(e.to_string()))?;
+                let bytes = self.files.read(path).map_err(|e| failed(reason(&e)))?;
                 let text = std::str::from_utf8(&bytes).map_err(|e| failed(e.to_string()))?;
                 tabulated(spd::parse(text).map_err(|e| failed(e.to_string()))?)
             }

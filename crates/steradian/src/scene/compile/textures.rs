@@ -2,7 +2,7 @@
 
 use super::pictures;
 use super::spectra::{Meaning, SpectrumCompiler};
-use crate::color::{ColorSpaceKind, UpsamplingTable};
+use crate::color::{ColorSpaceKind, UpsamplingTables};
 use crate::image::{ColorEncoding, Pyramid, Wrap};
 use crate::math::{Transform, Vec2};
 use crate::scene::desc::{
@@ -43,12 +43,13 @@ impl<'a> TextureCompiler<'a> {
     pub(super) fn new(
         desc: &'a SceneDesc,
         files: &'a dyn FileSystem,
+        tables: &'a UpsamplingTables,
         render_from_world: Transform,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
         let mut compiler = Self {
             textures: Textures::new(),
-            spectra: SpectrumCompiler::new(files, &desc.film),
+            spectra: SpectrumCompiler::new(files, tables, &desc.film),
             diagnostics,
             desc,
             files,
@@ -109,15 +110,14 @@ impl<'a> TextureCompiler<'a> {
         id
     }
 
-    /// The table of a colour space, built when the first coloured picture needs it.
+    /// The arena's table of a colour space.
     fn color_table(&mut self, kind: ColorSpaceKind) -> ColorTableId {
-        let slot = SpectrumCompiler::slot(kind);
-        if let Some(id) = self.color_tables[slot] {
+        if let Some(id) = self.color_tables[kind as usize] {
             return id;
         }
-        let space = self.spectra.space(kind);
-        let id = self.textures.push_color_space(space, UpsamplingTable::build(space));
-        self.color_tables[slot] = Some(id);
+        let table = self.spectra.table(kind);
+        let id = self.textures.push_color_space(self.spectra.space(kind), table);
+        self.color_tables[kind as usize] = Some(id);
         id
     }
 

@@ -30,6 +30,19 @@ pub struct FilmDesc {
     pub span: Span,
 }
 
+impl FilmDesc {
+    /// The pixels that are rendered, x0, x1, y0, y1 with exclusive ends. Each edge of a crop window is rounded up, so that
+    /// adjacent windows tile the film; a narrow one may contain no pixel.
+    pub fn window(&self) -> [u32; 4] {
+        let [width, height] = self.resolution;
+        let edge = |fraction: f32, side: u32| (fraction.clamp(0.0, 1.0) * side as f32).ceil() as u32;
+        let [x0, x1, y0, y1] = self.crop_window.unwrap_or([0.0, 1.0, 0.0, 1.0]);
+        let crop = [edge(x0, width), edge(x1, width), edge(y0, height), edge(y1, height)];
+        let b = self.pixel_bounds.unwrap_or([0, width, 0, height]);
+        [crop[0].max(b[0]), crop[1].min(b[1]), crop[2].max(b[2]), crop[3].min(b[3])]
+    }
+}
+
 /// What the film records.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmKind {
@@ -115,4 +128,46 @@ pub enum FilterKind {
         /// Number of lobes (3), > 0.
         tau: f32,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::files::FileBytes;
+    use crate::scene::source::SourceMap;
+    use std::sync::Arc;
+
+    #[test]
+    fn adjacent_crops_meet_without_gap_or_overlap() {
+        let file = SourceMap::new().add("film", Arc::new(FileBytes::Owned(Vec::new())), None);
+        let sensor = SensorDesc { response: SensorResponse::Cie1931, iso: 100.0, white_balance: None };
+        for width in [7, 100, 1281] {
+            let mut film = FilmDesc {
+                kind: FilmKind::Rgb,
+                resolution: [width, 1],
+                crop_window: None,
+                pixel_bounds: None,
+                filename: String::new(),
+                diagonal_mm: 35.0,
+                sensor: sensor.clone(),
+                max_component_value: None,
+                save_fp16: false,
+                color_space: ColorSpaceKind::Srgb,
+                span: Span { file, start: 0, len: 0 },
+            };
+            assert_eq!(film.window(), [0, width, 0, 1]);
+            let cuts = [0.0, 0.1, 0.37, 0.5, 0.99, 1.0];
+            let mut next = 0;
+            for pair in cuts.windows(2) {
+                film.crop_window = Some([pair[0], pair[1], 0.0, 1.0]);
+                let [x0, x1, ..] = film.window();
+                assert_eq!(x0, next);
+                next = x1;
+            }
+            assert_eq!(next, width);
+            film.pixel_bounds = Some([1, 5, 0, 1]);
+            film.crop_window = Some([0.5, 1.0, 0.0, 1.0]);
+            assert_eq!(film.window(), [width.div_ceil(2), 5, 0, 1]);
+        }
+    }
 }

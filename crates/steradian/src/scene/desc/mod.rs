@@ -24,7 +24,7 @@ pub use light::{AreaLightDesc, AreaRadiance, LightDesc, LightKind, Normalization
 pub use material::{ConductorOptics, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc};
 pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface, MediumKind};
 pub use options::{OptionsDesc, RenderingSpace};
-pub use sampler::{Randomization, SamplerDesc, SamplerKind};
+pub use sampler::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};
 pub use shape::{CurveBasis, CurveDesc, CurveKind, InstanceDesc, MeshDesc, ObjectDesc, ShapeDesc, ShapeKind};
 pub use texture::{
     CheckerboardDomain, FloatParam, FloatTextureDesc, FloatTextureKind, ImageFilter, ImageTextureDesc,
@@ -32,6 +32,8 @@ pub use texture::{
     WrapMode,
 };
 pub use value::{FileRef, SpectrumDesc, SpectrumValue};
+
+use crate::scene::source::Span;
 
 /// A whole scene as plain data. Every [`Id`] in it is in range.
 #[derive(Clone, Debug)]
@@ -70,6 +72,8 @@ pub struct SceneDesc {
     pub objects: Vec<ObjectDesc>,
     /// Placements of objects.
     pub instances: Vec<InstanceDesc>,
+    /// The start of the last main file, for what concerns the scene as a whole.
+    pub span: Span,
     /// Hash of the text that this was read from.
     pub content_hash: u64,
 }

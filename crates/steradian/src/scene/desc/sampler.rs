@@ -2,12 +2,15 @@
 
 use crate::scene::source::Span;
 
+/// Most samples per pixel: the sequences are distinct up to here, and more are taken for a slip.
+pub const MAX_SAMPLES: u32 = 1 << 24;
+
 /// The sampler.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerDesc {
     /// The sequence.
     pub kind: SamplerKind,
-    /// Samples per pixel (16; independent 4; stratified x·y), ≥ 1.
+    /// Samples per pixel (16; independent 4; stratified x·y), from 1 to [`MAX_SAMPLES`].
     pub pixel_samples: u32,
     /// Seed; `None` takes the one of the options.
     pub seed: Option<i32>,

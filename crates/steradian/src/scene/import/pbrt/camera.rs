@@ -63,6 +63,9 @@ pub(super) fn camera(class: &Text, args: &mut Args<'_>) -> Option<CameraSettings
     if close < open {
         args.ctx.diagnostics.warning(span, "the shutter closes before it opens; the two times are swapped");
     }
+    if close == open {
+        args.error(span, "the shutter is open for no time: the picture would be black");
+    }
     Some(CameraSettings { kind, shutter_open: open.min(close), shutter_close: open.max(close) })
 }
 

@@ -34,6 +34,10 @@ const CAMERAS: &[&str] = &[
     "sony_ilce_9",
 ];
 
+/// Colour temperatures that a sensor can be balanced for [K]: thermal light that is not merely red, up to the end of the
+/// definition of daylight.
+const WHITES: std::ops::RangeInclusive<f32> = 1000.0..=24_900.0;
+
 /// Larger pictures than this along one side are taken for slips.
 const MAX_SIDE: u32 = 1 << 16;
 
@@ -65,8 +69,11 @@ pub(super) fn film(class: &Text, directive: Span, args: &mut Args<'_>) -> Option
         "spectral" => {
             let n_buckets = args.count("nbuckets", 16, 1..=4096);
             let span = args.span_of("lambdamax");
+            let wavelength = |args: &mut Args<'_>, name, default| {
+                args.float_where(name, default, |v| (1.0..=1e6).contains(&v), "from 1 to 1e6")
+            };
             let (lambda_min, lambda_max) =
-                (args.positive("lambdamin", 360.0), args.positive("lambdamax", 830.0));
+                (wavelength(args, "lambdamin", 360.0), wavelength(args, "lambdamax", 830.0));
             if lambda_min >= lambda_max {
                 args.error(span, "\"lambdamax\" must be greater than \"lambdamin\"");
             }
@@ -102,8 +109,14 @@ pub(super) fn film(class: &Text, directive: Span, args: &mut Args<'_>) -> Option
 }
 
 fn sensor(args: &mut Args<'_>) -> SensorDesc {
-    let iso = args.positive("iso", 100.0);
-    let white_balance = Some(args.non_negative("whitebalance", 0.0)).filter(|t| *t > 0.0);
+    let iso = args.float_where("iso", 100.0, |v| (1e-6..=1e9).contains(&v), "from 1e-6 to 1e9");
+    let white_balance = args.float_where(
+        "whitebalance",
+        0.0,
+        |t| t == 0.0 || WHITES.contains(&t),
+        "0 or a colour temperature from 1000 to 24900",
+    );
+    let white_balance = Some(white_balance).filter(|t| *t > 0.0);
     let response = match args.text("sensor") {
         Some(name) if CAMERAS.contains(&name.value.as_str()) => {
             args.ctx.unsupported(name.span, &format!("sensor \"{}\"; known is cie1931", name.value));
@@ -161,22 +174,36 @@ pub(super) fn filter(class: &Text, directive: Span, args: &mut Args<'_>) -> Opti
     let (kind, radius) = match class.value.as_str() {
         "box" => (FilterKind::Box, 0.5),
         "triangle" => (FilterKind::Triangle, 2.0),
-        "gaussian" => (FilterKind::Gaussian { sigma: args.positive("sigma", 0.5) }, 1.5),
-        "mitchell" => {
-            let (b, c) = (args.float("B", 1.0 / 3.0), args.float("C", 1.0 / 3.0));
-            (FilterKind::Mitchell { b, c }, 2.0)
+        "gaussian" => {
+            let wide = |v| (0.01..=100.0).contains(&v);
+            (FilterKind::Gaussian { sigma: args.float_where("sigma", 0.5, wide, "from 0.01 to 100") }, 1.5)
         }
-        "sinc" => (FilterKind::Sinc { tau: args.positive("tau", 3.0) }, 4.0),
+        "mitchell" => {
+            let coefficient = |args: &mut Args<'_>, name| {
+                args.float_where(name, 1.0 / 3.0, |v| v.abs() <= 10.0, "from -10 to 10")
+            };
+            (FilterKind::Mitchell { b: coefficient(args, "B"), c: coefficient(args, "C") }, 2.0)
+        }
+        "sinc" => {
+            let wide = |v| (0.1..=1000.0).contains(&v);
+            (FilterKind::Sinc { tau: args.float_where("tau", 3.0, wide, "from 0.1 to 1000") }, 4.0)
+        }
         _ => {
             args.unknown_class("pixel filter", class, FILTERS, &[]);
             return None;
         }
     };
-    let limit = |v: f32| v > 0.0 && v <= 64.0;
-    let demand = "positive and at most 64";
+    let limit = |v: f32| (0.01..=64.0).contains(&v);
+    let demand = "from 0.01 to 64";
     let radius = [
         args.float_where("xradius", radius, limit, demand),
         args.float_where("yradius", radius, limit, demand),
     ];
+    if let FilterKind::Gaussian { sigma } = kind
+        && sigma > 100.0 * radius[0].min(radius[1])
+    {
+        let span = args.span_of("sigma");
+        args.error(span, format!("\"sigma\" {sigma} leaves nothing of the filter within its radius"));
+    }
     Some(FilterDesc { kind, radius, span: directive })
 }

@@ -60,6 +60,7 @@ pub(super) fn finish(mut importer: Importer<'_>) -> Imported {
             shapes: importer.shapes,
             objects: ctx.objects.into_values()?,
             instances: importer.instances,
+            span,
             content_hash: sources.content_hash(),
         })
     };

@@ -13,7 +13,7 @@ use crate::scene::desc::{
     SpectrumParam, SpectrumValue,
 };
 use crate::scene::diagnostic::Diagnostic;
-use crate::scene::files::{FileBytes, FileSystem};
+use crate::scene::files::{FileBytes, FileSystem, reason};
 use crate::scene::source::{SourceMap, Span};
 use crate::scene::text::{ActiveTransform, Directive, Entity, Params, Parser, Statement, Text};
 use glam::Mat4;
@@ -562,13 +562,4 @@ pub(super) fn default_material(span: Span) -> MaterialDesc {
     let half = SpectrumDesc { value: SpectrumValue::Constant(0.5), span };
     let kind = MaterialKind::Diffuse { reflectance: SpectrumParam::Value(half) };
     MaterialDesc { name: None, kind, displacement: None, normal_map: None, span }
-}
-
-/// What went wrong with a file, without the operating system's numbers.
-fn reason(e: &std::io::Error) -> String {
-    match e.kind() {
-        std::io::ErrorKind::NotFound => "no such file".to_owned(),
-        std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        _ => e.to_string(),
-    }
 }

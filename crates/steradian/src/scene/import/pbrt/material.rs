@@ -91,13 +91,16 @@ fn roughness(args: &mut Args<'_>, names: [&'static str; 3]) -> RoughnessDesc {
     }
 }
 
+/// Scattering events, and walks, within a layered material: each point that is hit pays for all of them.
+const MAX_WALK: u32 = 1000;
+
 fn layer(args: &mut Args<'_>) -> LayerDesc {
     LayerDesc {
         thickness: args.float_param("thickness", 0.01),
         g: args.float_param("g", 0.0),
         albedo: args.spectrum_param("albedo", Role::Albedo, 0.0),
-        max_depth: args.count("maxdepth", 10, 0..=i32::MAX as u32),
-        n_samples: args.count("nsamples", 1, 1..=i32::MAX as u32),
+        max_depth: args.count("maxdepth", 10, 0..=MAX_WALK),
+        n_samples: args.count("nsamples", 1, 1..=MAX_WALK),
     }
 }
 

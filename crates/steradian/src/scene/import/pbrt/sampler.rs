@@ -1,7 +1,7 @@
 //! Sampler classes.
 
 use super::args::Args;
-use crate::scene::desc::{Randomization, SamplerDesc, SamplerKind};
+use crate::scene::desc::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
@@ -48,8 +48,15 @@ pub(super) fn sampler(class: &Text, directive: Span, args: &mut Args<'_>) -> Opt
     };
     let pixel_samples = match kind {
         SamplerKind::Stratified { x, y, .. } => x * y,
-        SamplerKind::Independent => args.count("pixelsamples", 4, 1..=i32::MAX as u32),
-        _ => args.count("pixelsamples", 16, 1..=i32::MAX as u32),
+        SamplerKind::Independent => args.count("pixelsamples", 4, 1..=MAX_SAMPLES),
+        _ => args.count("pixelsamples", 16, 1..=MAX_SAMPLES),
     };
+    if pixel_samples > MAX_SAMPLES {
+        let span = args.span_of("xsamples");
+        args.error(
+            span,
+            format!("{pixel_samples} strata are more than the {MAX_SAMPLES} samples that a pixel can have"),
+        );
+    }
     Some(SamplerDesc { kind, pixel_samples, seed: args.int_opt("seed"), span: directive })
 }

@@ -10,6 +10,8 @@ const V3_CLASSES: &[&str] = &["cone", "hyperboloid", "paraboloid", "heightfield"
 
 /// More refinements than this would make over a million faces of each one.
 const MAX_SUBDIVISION: u32 = 10;
+/// A subdivision with more faces than this would take tens of gigabytes.
+const MAX_SUBDIVIDED: usize = 1 << 26;
 
 /// Reads the parameters of a shape class; `None` when the class or something needed is missing (and reported).
 pub(super) fn shape(class: &Text, args: &mut Args<'_>) -> Option<ShapeKind> {
@@ -199,6 +201,7 @@ fn curve(args: &mut Args<'_>) -> Option<ShapeKind> {
 }
 
 fn loop_subdivision(args: &mut Args<'_>) -> Option<ShapeKind> {
+    let span = args.span_of("levels");
     let levels = args.count("levels", 3, 0..=MAX_SUBDIVISION);
     args.choice("scheme", (), &[("loop", ())]);
     let (indices, p) = (args.ints("indices"), args.points("P"));
@@ -210,5 +213,10 @@ fn loop_subdivision(args: &mut Args<'_>) -> Option<ShapeKind> {
     }
     let (indices, p) = (indices?, p?);
     let indices = vertex_indices(args, indices, p.values.len(), 3)?;
+    let faces = (indices.len() / 3).saturating_mul(1 << (2 * levels));
+    if faces > MAX_SUBDIVIDED {
+        args.error(span, format!("subdivision would make {faces} faces, more than {MAX_SUBDIVIDED}"));
+        return None;
+    }
     Some(ShapeKind::LoopSubdivision { levels, p: p.values, indices })
 }

@@ -19,6 +19,9 @@ pub(super) enum Role {
     Illuminant,
 }
 
+/// Indices of refraction, either way through an interface; what lies outside is taken for a slip.
+const INDICES: std::ops::RangeInclusive<f32> = 0.01..=100.0;
+
 const SPECTRAL: [ParamType; 3] = [ParamType::Spectrum, ParamType::Rgb, ParamType::Blackbody];
 
 impl Args<'_> {
@@ -73,11 +76,13 @@ impl Args<'_> {
         }
         let span = taken.param.value_span;
         match &taken.param.values {
-            Values::Numbers(v) if v.len() == 1 && v[0] > 0.0 => {
+            Values::Numbers(v) if v.len() == 1 && INDICES.contains(&v[0]) => {
                 SpectrumParam::Value(SpectrumDesc { value: SpectrumValue::Constant(v[0]), span })
             }
             _ => {
-                self.error(span, format!("parameter \"{name}\" must be one positive number or a spectrum"));
+                let (low, high) = (INDICES.start(), INDICES.end());
+                let demand = format!("must be one number from {low} to {high} or a spectrum");
+                self.error(span, format!("parameter \"{name}\" {demand}"));
                 SpectrumParam::Value(fallback)
             }
         }

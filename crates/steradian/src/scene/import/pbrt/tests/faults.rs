@@ -173,7 +173,7 @@ fn faults_of_spectra() {
     );
     expect(
         "Material \"dielectric\" \"float eta\" 0",
-        &["2:35: error: parameter \"eta\" must be one positive number or a spectrum"],
+        &["2:35: error: parameter \"eta\" must be one number from 0.01 to 100 or a spectrum"],
     );
     expect(
         "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"spectrum k\" \"metal-Ag-k\"",
@@ -358,7 +358,7 @@ fn faults_of_lights_and_cameras() {
     );
     expect_header(
         "Sampler \"halton\" \"integer pixelsamples\" -1",
-        &["1:18: error: parameter \"pixelsamples\" must be at least 1, found -1"],
+        &["1:18: error: parameter \"pixelsamples\" must be from 1 to 16777216, found -1"],
     );
     expect_header(
         "Sampler \"halton\" \"string randomization\" \"fastowen\"",
