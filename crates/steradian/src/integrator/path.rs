@@ -60,7 +60,9 @@ impl Integrator for PathTracer {
         loop {
             tally.closest_rays += 1;
             let Some(direction) = Dir::new(ray.d) else { break };
-            let Some(hit) = scene.intersect(&ray, f32::INFINITY) else {
+            let met = scene.intersect(&ray, f32::INFINITY);
+            // By reference: hits and scattering functions are too large to be moved once more.
+            let Some(hit) = &met else {
                 for light in scene.infinite_lights() {
                     let escaped = scene.escaped(light, direction, w);
                     if !escaped.is_zero() {
@@ -80,14 +82,15 @@ impl Integrator for PathTracer {
                     radiance += throughput * emitted * weight;
                 }
             }
-            let Some(mut bsdf) = scene.shade(&hit, wo, w, sampler.hash_seed()) else {
+            let mut shaded = scene.shade(hit, wo, w, sampler.hash_seed());
+            let Some(bsdf) = &mut shaded else {
                 // No optical interface: the path goes straight on and does not count a bounce.
                 ray = hit.point.p.spawn(hit.point.ng, direction, ray.time);
                 continue;
             };
             if let Some(first) = first.take() {
                 first.surface =
-                    Some(VisibleSurface { point: hit.point, seen_from: ray.o, albedo: albedo(&bsdf, wo) });
+                    Some(VisibleSurface { point: hit.point, seen_from: ray.o, albedo: albedo(bsdf, wo) });
             }
             if self.regularize && widened {
                 bsdf.regularize();
@@ -96,9 +99,9 @@ impl Integrator for PathTracer {
                 break;
             }
             depth += 1;
-            let from = reference(&hit.point, &bsdf);
+            let from = reference(&hit.point, bsdf);
             if bsdf.lobes().is_continuous() {
-                let direct = sample_direct(scene, &from, &bsdf, wo, w, sampler, tally);
+                let direct = sample_direct(scene, &from, bsdf, wo, w, sampler, tally);
                 radiance += throughput * direct;
             }
             let Some(scattered) = bsdf.sample(wo, sampler.next_1d(), sampler.next_2d(), Mode::Radiance)

@@ -49,10 +49,9 @@ pub(super) struct SphericalTriangle {
 }
 
 impl SphericalTriangle {
-    /// The triangle `v` seen from `from`; `None` when `from` is one of its corners.
-    pub(super) fn new(v: [Point; 3], from: Point) -> Option<Self> {
-        let o = to_f64(from);
-        let offsets = v.map(|p| to_f64(p) - o);
+    /// The triangle with corners at `offsets` from the point; `None` when one of them is zero.
+    #[inline]
+    pub(super) fn new(offsets: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = offsets;
         let corners = [a.try_normalize()?, b.try_normalize()?, c.try_normalize()?];
         Some(Self { offsets, corners, solid_angle: triangle_solid_angle(corners) })
@@ -238,7 +237,7 @@ mod tests {
         };
         let (e1, e2) = (to_f64(v[1]) - to_f64(v[0]), to_f64(v[2]) - to_f64(v[0]));
         let n = e1.cross(e2);
-        let seen = SphericalTriangle::new(v, from).unwrap();
+        let seen = SphericalTriangle::new(v.map(|p| to_f64(p) - to_f64(from))).unwrap();
         let f = |b: [f64; 2]| DVec3::new(b[0], b[1] * b[1], b[0] * b[1]);
         let k = 200;
         let (mut quadrature, mut omega) = (DVec3::ZERO, 0.0);
