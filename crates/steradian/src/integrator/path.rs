@@ -82,6 +82,10 @@ impl Integrator for PathTracer {
                     radiance += throughput * emitted * weight;
                 }
             }
+            let ends_here = depth >= self.max_depth && !scene.passes_straight(hit);
+            if ends_here && first.is_none() {
+                break;
+            }
             let mut shaded = scene.shade(hit, wo, w, sampler.hash_seed());
             let Some(bsdf) = &mut shaded else {
                 // No optical interface: the path goes straight on and does not count a bounce.
@@ -95,7 +99,7 @@ impl Integrator for PathTracer {
             if self.regularize && widened {
                 bsdf.regularize();
             }
-            if depth >= self.max_depth {
+            if ends_here {
                 break;
             }
             depth += 1;

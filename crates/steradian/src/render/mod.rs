@@ -91,11 +91,12 @@ pub fn render(
                 let rays_before = state.tally.rays();
                 worker.add_samples(state, tile, first..end);
                 let done = tile.bounds().area() as u64 * u64::from(end - first);
+                let traced = state.tally.rays() - rays_before;
                 sink.update(&Progress {
                     samples_done: samples.fetch_add(done, Ordering::Relaxed) + done,
                     samples_total: total,
                     spp_done: first,
-                    rays: rays.fetch_add(state.tally.rays() - rays_before, Ordering::Relaxed),
+                    rays: rays.fetch_add(traced, Ordering::Relaxed) + traced,
                     elapsed: start.elapsed(),
                 });
             },

@@ -84,6 +84,11 @@ impl Scene {
         })
     }
 
+    /// Whether there is no optical interface at a hit.
+    pub fn passes_straight(&self, hit: &SceneHit) -> bool {
+        self.materials.is_interface(hit.material)
+    }
+
     /// The scattering function at a hit; `None` where there is no optical interface.
     ///
     /// `seed` decides the random walks of layered materials.

@@ -33,11 +33,7 @@ pub(super) struct SpectrumCompiler<'a> {
 }
 
 impl<'a> SpectrumCompiler<'a> {
-    pub(super) fn new(
-        files: &'a dyn FileSystem,
-        tables: &'a UpsamplingTables,
-        film: &FilmDesc,
-    ) -> Self {
+    pub(super) fn new(files: &'a dyn FileSystem, tables: &'a UpsamplingTables, film: &FilmDesc) -> Self {
         let beyond_visible = match film.kind {
             FilmKind::Spectral { lambda_min, lambda_max, .. }
                 if lambda_min < LAMBDA_MIN || lambda_max > LAMBDA_MAX =>
