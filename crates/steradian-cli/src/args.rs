@@ -20,7 +20,7 @@ pub(crate) enum Command {
     Info(Inspect),
     /// Report every problem of a scene; the exit code says whether there was an error
     Check(Inspect),
-    /// Compare two images: mean ratio, MSE, relMSE, FLIP, SSIM, and a map of the error
+    /// Compare two images: mean ratio, MSE, relMSE, FLIP, and a map of the error
     Compare(Compare),
 }
 

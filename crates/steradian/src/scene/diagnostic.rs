@@ -166,11 +166,17 @@ impl Diagnostics {
         Self::default()
     }
 
+    /// Whether one more diagnostic of that severity would be kept.
+    pub fn keeps(&self, severity: Severity) -> bool {
+        let seen = if severity == Severity::Error { self.errors } else { self.others };
+        seen < Self::LIMIT
+    }
+
     /// Adds a diagnostic; beyond the limit it is only counted.
     pub fn push(&mut self, d: Diagnostic) {
-        let seen = if d.severity == Severity::Error { &mut self.errors } else { &mut self.others };
-        *seen += 1;
-        if *seen <= Self::LIMIT {
+        let keeps = self.keeps(d.severity);
+        *(if d.severity == Severity::Error { &mut self.errors } else { &mut self.others }) += 1;
+        if keeps {
             self.kept.push(d);
         } else {
             self.dropped += 1;

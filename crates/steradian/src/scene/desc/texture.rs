@@ -250,7 +250,7 @@ pub struct ImageTextureDesc {
     pub wrap: WrapMode,
     /// Factor on the values (1).
     pub scale: f32,
-    /// Whether the values are replaced by one minus them, before scaling (false).
+    /// Whether the values are replaced by one minus them, after scaling, and not below zero (false).
     pub invert: bool,
     /// Largest ratio of the axes of an EWA filter ellipse (8).
     pub max_anisotropy: f32,
@@ -261,11 +261,11 @@ pub struct ImageTextureDesc {
 /// Filtering of picture lookups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageFilter {
-    /// Nearest texel.
+    /// Nearest texel of the level that suits the footprint.
     Point,
-    /// Four texels of the finest level.
+    /// Four texels of the level that suits the footprint.
     Bilinear,
-    /// Eight texels of two levels.
+    /// Eight texels of the two levels that suit the footprint best.
     Trilinear,
     /// Elliptically weighted average.
     Ewa,

@@ -67,11 +67,9 @@ impl<'c> Args<'c> {
         span: Span,
     ) -> Self {
         let list = params.list;
-        for (i, p) in list.iter().enumerate() {
-            if let Some(first) = list[..i].iter().find(|q| q.name == p.name) {
-                let d = Diagnostic::error(p.span, format!("parameter \"{}\" is given twice", p.name));
-                ctx.diagnostics.push(d.with_related(first.span, "it was given here first"));
-            }
+        for (first, again) in repetitions(&list) {
+            let d = Diagnostic::error(again.span, format!("parameter \"{}\" is given twice", again.name));
+            ctx.diagnostics.push(d.with_related(first.span, "it was given here first"));
         }
         let slot = |p: Param| Slot { name: p.name.clone(), span: p.span, param: Some(p) };
         let own = list.into_iter().map(slot).collect();
@@ -421,6 +419,18 @@ impl<'c> Args<'c> {
             None => default,
         }
     }
+}
+
+/// The parameters that repeat an earlier name, in their order, each after the first of that name.
+fn repetitions(list: &[Param]) -> Vec<(&Param, &Param)> {
+    let mut by_name: Vec<usize> = (0..list.len()).collect();
+    by_name.sort_by(|&a, &b| list[a].name.cmp(&list[b].name));
+    let mut found: Vec<(usize, usize)> = by_name
+        .chunk_by(|&a, &b| list[a].name == list[b].name)
+        .flat_map(|same| same[1..].iter().map(|&again| (again, same[0])))
+        .collect();
+    found.sort_unstable();
+    found.into_iter().map(|(again, first)| (&list[first], &list[again])).collect()
 }
 
 /// The values that make whole groups of `N`; the parser has already refused anything else.

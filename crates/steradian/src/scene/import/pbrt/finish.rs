@@ -11,7 +11,7 @@ use super::sampler::default_sampler;
 use crate::color::ColorSpaceKind;
 use crate::math::{AnimatedTransform, Transform};
 use crate::scene::desc::{CameraDesc, Id, MaterialDesc, MaterialKind, SceneDesc, ShapeDesc, TextureId};
-use crate::scene::diagnostic::Diagnostic;
+use crate::scene::diagnostic::{Diagnostic, Severity};
 use crate::scene::source::Span;
 
 /// Checks what can only be checked at the end, and puts the scene together.
@@ -69,24 +69,34 @@ pub(super) fn finish(mut importer: Importer<'_>) -> Imported {
     Imported { scene, sources, diagnostics }
 }
 
-fn report_undefined(ctx: &mut Context) {
-    let Context { diagnostics, float_textures, spectrum_textures, materials, media, objects, .. } = ctx;
-    let mut found = Vec::new();
-    collect_undefined("float texture", float_textures, &mut found);
-    collect_undefined("spectrum texture", spectrum_textures, &mut found);
-    collect_undefined("material", materials, &mut found);
-    collect_undefined("medium", media, &mut found);
-    collect_undefined("object", objects, &mut found);
-    found.sort_by_key(|d| d.span.map(|s| (s.file, s.start)));
-    for d in found {
-        diagnostics.push(d);
-    }
+/// The names of one kind of thing.
+struct Names<'a> {
+    kind: &'static str,
+    undefined: Vec<(&'a str, Span)>,
+    defined: Vec<&'a str>,
 }
 
-fn collect_undefined<T>(kind: &str, table: &Table<T>, out: &mut Vec<Diagnostic>) {
-    for (name, span) in table.undefined() {
+fn names<'a, T>(kind: &'static str, table: &'a Table<T>) -> Names<'a> {
+    Names { kind, undefined: table.undefined().collect(), defined: table.defined_names().collect() }
+}
+
+fn report_undefined(ctx: &mut Context) {
+    let Context { diagnostics, float_textures, spectrum_textures, materials, media, objects, .. } = ctx;
+    let kinds = [
+        names("float texture", float_textures),
+        names("spectrum texture", spectrum_textures),
+        names("material", materials),
+        names("medium", media),
+        names("object", objects),
+    ];
+    let mut found: Vec<(&Names<'_>, &str, Span)> =
+        kinds.iter().flat_map(|k| k.undefined.iter().map(move |&(name, span)| (k, name, span))).collect();
+    found.sort_by_key(|(.., span)| (span.file, span.start));
+    for (Names { kind, defined, .. }, name, span) in found {
         let d = Diagnostic::error(span, format!("{kind} \"{name}\" is not defined"));
-        out.push(d.with_nearest(name, table.defined_names()));
+        // Many wrong names times many right ones is more than anybody waits for.
+        let shown = diagnostics.keeps(Severity::Error);
+        diagnostics.push(if shown { d.with_nearest(name, defined.iter().copied()) } else { d });
     }
 }
 

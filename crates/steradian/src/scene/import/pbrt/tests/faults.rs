@@ -493,3 +493,38 @@ fn lights_that_cannot_shine_are_announced() {
     );
     expect("Material \"none\"", &["2:10: notice: material \"none\" is an old name of \"interface\""]);
 }
+
+#[test]
+fn twenty_thousand_slips_do_not_take_twenty_thousand_squared_comparisons() {
+    let n = 20_000;
+    let mut text = String::from("WorldBegin\n");
+    for i in 0..n {
+        text.push_str(&format!("MakeNamedMaterial \"right{i}\" \"string type\" \"diffuse\"\n"));
+    }
+    for i in 0..n {
+        text.push_str(&format!("NamedMaterial \"wrong{i}\"\nShape \"sphere\"\n"));
+    }
+    let imported = import_text(&text);
+    assert_eq!(imported.diagnostics.error_count(), n);
+    assert_eq!(imported.diagnostics.dropped(), n - crate::scene::Diagnostics::LIMIT);
+    assert_eq!(messages(&imported)[0], format!("{}:15: error: material \"wrong0\" is not defined", n + 2));
+}
+
+#[test]
+fn repeated_parameters_are_found_among_many() {
+    let n = 50_000;
+    let mut text = String::from("WorldBegin Shape \"sphere\"\n\"float radius\" 1\n\"float zmin\" 0\n");
+    for i in 0..n {
+        text.push_str(&format!("\"float a{i}\" 1\n"));
+    }
+    text.push_str("\"float zmin\" 0\n\"float radius\" 2\n");
+    let imported = import_text(&text);
+    assert_eq!(imported.diagnostics.error_count(), n + 2);
+    let expected = ["zmin", "radius"].map(|name| format!("parameter \"{name}\" is given twice"));
+    let found: Vec<_> = imported.diagnostics.iter().take(2).collect();
+    for (d, (message, (line, first))) in found.iter().zip(expected.iter().zip([(n + 4, 3), (n + 5, 2)])) {
+        assert_eq!(&d.message, message);
+        assert_eq!(d.span.map(|s| imported.sources.location(s).line), Some(line));
+        assert_eq!(imported.sources.location(d.related[0].span).line, first);
+    }
+}
