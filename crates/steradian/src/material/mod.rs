@@ -233,8 +233,10 @@ impl Materials {
         w: &mut Wavelengths,
         seed: u64,
     ) -> Option<SurfaceBsdf> {
-        let at = TextureContext { point, footprint };
-        let entry = self.unmixed(id, &at, wo, textures);
+        let mut entry = &self.entries[id.0 as usize];
+        if let Material::Mix { .. } = entry.material {
+            entry = self.unmixed(id, &TextureContext { point, footprint }, wo, textures);
+        }
         let relief =
             self.relief(entry, point, footprint, textures).map(|shading| SurfacePoint { shading, ..*point });
         let point = relief.as_ref().unwrap_or(point);
@@ -244,6 +246,9 @@ impl Materials {
     }
 
     /// Follows mixes to a material that is none. Ends, since a mix refers to earlier materials only.
+    ///
+    /// Out of line: the hash does not depend on the loop, so that it would be computed before it, for every material.
+    #[inline(never)]
     fn unmixed(&self, id: MaterialId, at: &TextureContext, wo: Dir, textures: &Textures) -> &Entry {
         let mut entry = &self.entries[id.0 as usize];
         while let Material::Mix { materials: [first, second], amount } = &entry.material {
