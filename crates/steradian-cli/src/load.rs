@@ -5,7 +5,7 @@ use crate::output::note;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use steradian::scene::import::pbrt::{Imported, Input, import};
-use steradian::scene::{Disk, RenderJob, Severity};
+use steradian::scene::{Diagnostic, Disk, RenderJob, Severity};
 
 /// Which messages are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,13 +62,10 @@ impl Loading {
     /// Shows the messages.
     pub(crate) fn report(&self, verbosity: Verbosity) {
         let Imported { sources, diagnostics, .. } = &self.imported;
-        for d in diagnostics.iter() {
-            if verbosity == Verbosity::All || d.severity == Severity::Error {
-                note(&d.display(sources).to_string());
-            }
-        }
-        if diagnostics.dropped() > 0 {
-            note(&format!("… and {} more messages", diagnostics.dropped()));
+        let shown = |d: &Diagnostic| verbosity == Verbosity::All || d.severity == Severity::Error;
+        let text = diagnostics.display_where(sources, shown).to_string();
+        if !text.is_empty() {
+            note(text.trim_end());
         }
     }
 }

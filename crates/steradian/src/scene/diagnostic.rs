@@ -1,6 +1,6 @@
 //! Errors, warnings and notices that point at the text.
 
-use super::source::{SourceMap, Span};
+use super::source::{Places, SourceMap, Span};
 use std::fmt;
 
 /// How serious a diagnostic is.
@@ -99,13 +99,40 @@ impl Diagnostic {
 
     /// The full text of the diagnostic: place, message, source line with underline, help and related places.
     pub fn display<'a>(&'a self, sources: &'a SourceMap) -> impl fmt::Display + 'a {
-        Rendered { diagnostic: self, sources }
+        Alone { diagnostic: self, sources }
+    }
+
+    /// All places that the text mentions.
+    fn spans(&self, sources: &SourceMap) -> Vec<Span> {
+        let mut spans: Vec<Span> = self.span.into_iter().chain(self.related.iter().map(|r| r.span)).collect();
+        spans.extend(self.included_from(sources));
+        spans
+    }
+
+    /// The directives that brought the file in, from the innermost.
+    fn included_from<'a>(&self, sources: &'a SourceMap) -> impl Iterator<Item = Span> + use<'a> {
+        let from = |span: Span| sources.file(span.file).and_then(|file| file.included_from);
+        std::iter::successors(self.span.and_then(from), move |span| from(*span))
+    }
+}
+
+struct Alone<'a> {
+    diagnostic: &'a Diagnostic,
+    sources: &'a SourceMap,
+}
+
+impl fmt::Display for Alone<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { diagnostic, sources } = *self;
+        let places = sources.places(diagnostic.spans(sources));
+        Rendered { diagnostic, sources, places: &places }.fmt(f)
     }
 }
 
 struct Rendered<'a> {
     diagnostic: &'a Diagnostic,
     sources: &'a SourceMap,
+    places: &'a Places,
 }
 
 impl fmt::Display for Rendered<'_> {
@@ -122,11 +149,9 @@ impl fmt::Display for Rendered<'_> {
             writeln!(f)?;
             self.place(f, r.span, &format!("note: {}", r.message))?;
         }
-        let mut from = d.span.and_then(|s| self.sources.file(s.file)).and_then(|file| file.included_from);
-        while let Some(span) = from {
-            let l = self.sources.location(span);
+        for span in d.included_from(self.sources) {
+            let l = self.sources.locate(self.places, span);
             write!(f, "\n  included from {}:{}:{}", l.file, l.line, l.column)?;
-            from = self.sources.file(span.file).and_then(|file| file.included_from);
         }
         Ok(())
     }
@@ -134,7 +159,7 @@ impl fmt::Display for Rendered<'_> {
 
 impl Rendered<'_> {
     fn place(&self, f: &mut fmt::Formatter<'_>, span: Span, message: &str) -> fmt::Result {
-        let l = self.sources.location(span);
+        let l = self.sources.locate(self.places, span);
         write!(f, "{}:{}:{}: {message}", l.file, l.line, l.column)?;
         if let Some(e) = self.sources.excerpt(span).filter(|e| !e.text.trim().is_empty()) {
             let gutter = l.line.to_string();
@@ -223,9 +248,19 @@ impl Diagnostics {
         self.kept.iter()
     }
 
-    /// The text of all diagnostics, each followed by a line end.
+    /// The text of all diagnostics, each followed by a line end; reads every file once at most.
     pub fn display<'a>(&'a self, sources: &'a SourceMap) -> impl fmt::Display + 'a {
-        RenderedAll { diagnostics: self, sources }
+        self.display_where(sources, |_| true)
+    }
+
+    /// The same as [`Diagnostics::display`] for the diagnostics that meet a condition.
+    pub fn display_where<'a>(
+        &'a self,
+        sources: &'a SourceMap,
+        shown: impl Fn(&Diagnostic) -> bool,
+    ) -> impl fmt::Display + 'a {
+        let shown = self.iter().filter(|d| shown(d)).collect();
+        RenderedAll { shown, dropped: self.dropped, sources }
     }
 }
 
@@ -238,18 +273,21 @@ impl<'a> IntoIterator for &'a Diagnostics {
 }
 
 struct RenderedAll<'a> {
-    diagnostics: &'a Diagnostics,
+    shown: Vec<&'a Diagnostic>,
+    dropped: usize,
     sources: &'a SourceMap,
 }
 
 impl fmt::Display for RenderedAll<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for d in self.diagnostics {
-            writeln!(f, "{}", d.display(self.sources))?;
+        let Self { shown, sources, dropped } = self;
+        let places = sources.places(shown.iter().flat_map(|d| d.spans(sources)));
+        for diagnostic in shown {
+            writeln!(f, "{}", Rendered { diagnostic, sources, places: &places })?;
         }
-        match self.diagnostics.dropped {
+        match dropped {
             0 => Ok(()),
-            n => writeln!(f, "… and {n} more"),
+            n => writeln!(f, "… and {n} more messages"),
         }
     }
 }
@@ -311,7 +349,10 @@ mod tests {
             all.error(Span { file, start: 0, len: 1 }, format!("e{i}"));
         }
         assert_eq!((all.iter().count(), all.error_count(), all.dropped()), (101, 107, 7));
-        assert!(all.display(&sources).to_string().ends_with("… and 7 more\n"));
+        let shown = all.display(&sources).to_string();
+        assert!(shown.ends_with("… and 7 more messages\n"));
+        let errors = all.display_where(&sources, |d| d.severity == Severity::Error).to_string();
+        assert_eq!(shown.split_once(" | ^\n").map(|(_, rest)| rest), Some(errors.as_str()));
     }
 
     #[test]

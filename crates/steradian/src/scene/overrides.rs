@@ -111,13 +111,13 @@ impl Overrides {
 fn max_depth(kind: &mut IntegratorKind) -> Option<&mut u32> {
     match kind {
         IntegratorKind::Path(p) | IntegratorKind::VolPath(p) => Some(&mut p.max_depth),
-        IntegratorKind::SimplePath { max_depth, .. }
+        IntegratorKind::SimplePath { max_depth }
         | IntegratorKind::SimpleVolPath { max_depth }
         | IntegratorKind::LightPath { max_depth }
         | IntegratorKind::RandomWalk { max_depth }
         | IntegratorKind::Bdpt { max_depth, .. }
         | IntegratorKind::Mlt { max_depth, .. }
-        | IntegratorKind::Sppm { max_depth, .. } => Some(max_depth),
-        IntegratorKind::AmbientOcclusion { .. } => None,
+        | IntegratorKind::Sppm { max_depth } => Some(max_depth),
+        IntegratorKind::AmbientOcclusion => None,
     }
 }

@@ -56,6 +56,31 @@ pub struct Location<'a> {
     pub column: usize,
 }
 
+/// Where the starts of some spans are, in order of file and offset.
+#[derive(Debug)]
+pub(super) struct Places {
+    found: Vec<((FileId, u64), Place)>,
+}
+
+/// Line and column, from 1.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    line: usize,
+    column: usize,
+}
+
+impl Place {
+    /// The place that follows `text`, when `text` begins here.
+    fn after(self, text: &[u8]) -> Self {
+        let start = line_start(text);
+        let columns = String::from_utf8_lossy(&text[start..]).chars().count();
+        match text[..start].iter().filter(|&&b| b == b'\n').count() {
+            0 => Self { column: self.column + columns, ..self },
+            lines => Self { line: self.line + lines, column: 1 + columns },
+        }
+    }
+}
+
 /// The part of a source line that a message shows, with the underlined columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Excerpt {
@@ -108,14 +133,36 @@ impl SourceMap {
     /// File, line and column of the start of a span; takes time linear in the offset. A span that lies
     /// outside its file is located at the file's end, a span of another map at an unnamed file.
     pub fn location(&self, span: Span) -> Location<'_> {
-        let Some(file) = self.file(span.file) else { return Location { file: "", line: 1, column: 1 } };
-        let (before, _) = split(&file.bytes, span.start);
-        let line_start = line_start(before);
-        Location {
-            file: &file.name,
-            line: 1 + before.iter().filter(|&&b| b == b'\n').count(),
-            column: 1 + String::from_utf8_lossy(&before[line_start..]).chars().count(),
+        self.locate(&self.places([span]), span)
+    }
+
+    /// Lines and columns of the starts of many spans, in one pass over each of their files.
+    pub(super) fn places(&self, spans: impl IntoIterator<Item = Span>) -> Places {
+        let mut starts: Vec<(FileId, u64)> = spans.into_iter().map(|s| (s.file, s.start)).collect();
+        starts.sort_unstable();
+        starts.dedup();
+        let mut found = Vec::with_capacity(starts.len());
+        for of_file in starts.chunk_by(|a, b| a.0 == b.0) {
+            let bytes: &[u8] = self.file(of_file[0].0).map_or(&[], |f| &f.bytes);
+            let (mut read, mut place) = (0, Place { line: 1, column: 1 });
+            for &(file, start) in of_file {
+                let (before, _) = split(bytes, start);
+                place = place.after(&before[read..]);
+                read = before.len();
+                found.push(((file, start), place));
+            }
         }
+        Places { found }
+    }
+
+    /// The start of a span, which was among those that `places` was made of.
+    pub(super) fn locate(&self, places: &Places, span: Span) -> Location<'_> {
+        let name = self.file(span.file).map_or("", |f| f.name.as_str());
+        let wanted = (span.file, span.start);
+        let found = places.found.binary_search_by_key(&wanted, |(start, _)| *start);
+        debug_assert!(found.is_ok(), "the span is not among those that were looked for");
+        let place = found.map_or(Place { line: 1, column: 1 }, |i| places.found[i].1);
+        Location { file: name, line: place.line, column: place.column }
     }
 
     /// The source line around a span, cut to about a hundred characters around it.
@@ -124,7 +171,9 @@ impl SourceMap {
         const TOTAL: usize = 110;
         let bytes = &self.file(span.file)?.bytes;
         let (before, after) = split(bytes, span.start);
-        let start = line_start(before);
+        // A line may be as long as the file.
+        let near = before.len().saturating_sub(4 * BEFORE + 1);
+        let start = near + line_start(&before[near..]);
         let line_len = after.iter().take(4 * TOTAL).position(|&b| b == b'\n' || b == b'\r');
         let (rest, cut_right) = match line_len {
             Some(n) => (&after[..n], false),
@@ -162,6 +211,7 @@ fn line_start(before: &[u8]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn map(text: &str) -> (SourceMap, FileId) {
         let mut m = SourceMap::new();
@@ -182,6 +232,28 @@ mod tests {
         // ä takes two bytes and one column
         assert_eq!(at(16), (2, 4));
         assert_eq!(at(1000), (3, 1));
+    }
+
+    proptest! {
+        #[test]
+        fn places_found_together_are_those_found_alone(
+            text in "[aä\n]{0,60}",
+            starts in prop::collection::vec(0_u64..100, 0..20),
+        ) {
+            let (mut m, file) = map(&text);
+            let other = m.add("b.pbrt", Arc::new(FileBytes::Owned(b"x\ny".to_vec())), None);
+            let boundary = |s: &u64| usize::try_from(*s).is_ok_and(|s| s >= text.len() || text.is_char_boundary(s));
+            let in_a = starts.into_iter().filter(boundary).map(|start| Span { file, start, len: 1 });
+            let spans: Vec<Span> = in_a.chain([Span { file: other, start: 2, len: 1 }]).collect();
+            let places = m.places(spans.iter().copied());
+            for &span in &spans {
+                prop_assert_eq!(m.locate(&places, span), m.location(span));
+                if span.file == file {
+                    let before: String = text.bytes().take(span.start as usize).map(char::from).collect();
+                    prop_assert_eq!(m.location(span).line, before.split('\n').count());
+                }
+            }
+        }
     }
 
     #[test]

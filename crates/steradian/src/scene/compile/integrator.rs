@@ -34,9 +34,7 @@ pub(super) fn choose(
         IntegratorKind::Path(p) => PathSettings { max_depth: p.max_depth, regularize: p.regularize },
         // Without media it is the same estimator.
         IntegratorKind::VolPath(p) => substitute("volpath", p.max_depth, p.regularize, diagnostics),
-        IntegratorKind::SimplePath { max_depth, .. } => {
-            substitute("simplepath", max_depth, false, diagnostics)
-        }
+        IntegratorKind::SimplePath { max_depth } => substitute("simplepath", max_depth, false, diagnostics),
         IntegratorKind::SimpleVolPath { max_depth } => {
             substitute("simplevolpath", max_depth, false, diagnostics)
         }
@@ -45,11 +43,11 @@ pub(super) fn choose(
         IntegratorKind::Bdpt { max_depth, regularize } => {
             substitute("bdpt", max_depth, regularize, diagnostics)
         }
-        IntegratorKind::Mlt { max_depth, regularize, .. } => {
+        IntegratorKind::Mlt { max_depth, regularize } => {
             substitute("mlt", max_depth, regularize, diagnostics)
         }
-        IntegratorKind::Sppm { max_depth, .. } => substitute("sppm", max_depth, false, diagnostics),
-        IntegratorKind::AmbientOcclusion { .. } => {
+        IntegratorKind::Sppm { max_depth } => substitute("sppm", max_depth, false, diagnostics),
+        IntegratorKind::AmbientOcclusion => {
             diagnostics.push(
                 Diagnostic::error(
                     desc.span,

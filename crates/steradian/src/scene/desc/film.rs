@@ -16,14 +16,10 @@ pub struct FilmDesc {
     pub pixel_bounds: Option<[u32; 4]>,
     /// Name of the picture file (`pbrt.exr`), relative to the working folder.
     pub filename: String,
-    /// Length of the film's diagonal [mm] (35), > 0.
-    pub diagonal_mm: f32,
     /// How radiance becomes RGB.
     pub sensor: SensorDesc,
     /// Largest component of a sample that is recorded; `None` for no limit.
     pub max_component_value: Option<f32>,
-    /// Whether the file holds half floats (true).
-    pub save_fp16: bool,
     /// The colour space of the output, in force at the directive.
     pub color_space: ColorSpaceKind,
     /// The directive, or the start of the file when there is none.
@@ -148,10 +144,8 @@ mod tests {
                 crop_window: None,
                 pixel_bounds: None,
                 filename: String::new(),
-                diagonal_mm: 35.0,
                 sensor: sensor.clone(),
                 max_component_value: None,
-                save_fp16: false,
                 color_space: ColorSpaceKind::Srgb,
                 span: Span { file, start: 0, len: 0 },
             };

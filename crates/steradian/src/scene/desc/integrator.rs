@@ -1,4 +1,4 @@
-//! The integrator and the acceleration structure as the scene states them.
+//! The integrator as the scene states it.
 
 use crate::scene::source::Span;
 
@@ -22,10 +22,6 @@ pub enum IntegratorKind {
     SimplePath {
         /// Largest number of scattering events.
         max_depth: u32,
-        /// Whether lights are sampled (true).
-        sample_lights: bool,
-        /// Whether BSDFs are sampled (true).
-        sample_bsdf: bool,
     },
     /// Textbook path tracing with media.
     SimpleVolPath {
@@ -53,16 +49,6 @@ pub enum IntegratorKind {
     Mlt {
         /// Largest number of scattering events.
         max_depth: u32,
-        /// Paths that seed the chains (100 000).
-        bootstrap_samples: u32,
-        /// Markov chains (1000).
-        chains: u32,
-        /// Mutations per pixel (100).
-        mutations_per_pixel: u32,
-        /// Standard deviation of small steps (0.01).
-        sigma: f32,
-        /// Probability of a large step (0.3).
-        large_step_probability: f32,
         /// Whether BSDFs are roughened after the first bounce (false).
         regularize: bool,
     },
@@ -70,20 +56,9 @@ pub enum IntegratorKind {
     Sppm {
         /// Largest number of scattering events.
         max_depth: u32,
-        /// Photons per pass; `None` takes one per pixel.
-        photons_per_iteration: Option<u32>,
-        /// Initial search radius [scene units] (1).
-        radius: f32,
-        /// Seed of the photons; `None` takes the one of the options.
-        seed: Option<i32>,
     },
     /// Ambient occlusion.
-    AmbientOcclusion {
-        /// Whether directions are cosine-distributed (true).
-        cos_sample: bool,
-        /// Distance beyond which nothing occludes [scene units] (∞).
-        max_distance: f32,
-    },
+    AmbientOcclusion,
 }
 
 /// Parameters of the path tracers.
@@ -108,22 +83,4 @@ pub enum LightSamplerKind {
     Power,
     /// By estimating the contribution of every light.
     Exhaustive,
-}
-
-/// The acceleration structure; its parameters are checked and otherwise left to the renderer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AcceleratorDesc {
-    /// What the scene asks for (bvh).
-    pub kind: AcceleratorKind,
-    /// The directive, or the start of the file when there is none.
-    pub span: Span,
-}
-
-/// The kinds of acceleration structure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AcceleratorKind {
-    /// Bounding volume hierarchy.
-    Bvh,
-    /// k-d tree.
-    KdTree,
 }

@@ -17,9 +17,7 @@ pub mod value;
 pub use camera::{CameraDesc, CameraKind, ProjectionDesc, SphericalMapping};
 pub use film::{FilmDesc, FilmKind, FilterDesc, FilterKind, GBufferSpace, SensorDesc, SensorResponse};
 pub use id::Id;
-pub use integrator::{
-    AcceleratorDesc, AcceleratorKind, IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc,
-};
+pub use integrator::{IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc};
 pub use light::{AreaLightDesc, AreaRadiance, LightDesc, LightKind, Normalization};
 pub use material::{ConductorOptics, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc};
 pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface, MediumKind};
@@ -50,8 +48,6 @@ pub struct SceneDesc {
     pub sampler: SamplerDesc,
     /// Integrator.
     pub integrator: IntegratorDesc,
-    /// Acceleration structure.
-    pub accelerator: AcceleratorDesc,
     /// Textures of numbers.
     pub float_textures: Vec<FloatTextureDesc>,
     /// Textures of spectra.

@@ -41,10 +41,10 @@ impl Importer<'_> {
                 self.integrator = integrator.or(self.integrator);
             }
             Entity::Accelerator => {
-                let read = |args: &mut Args<'_>| integrator::accelerator(class, span, args);
-                let accelerator = self.setting("accelerator", class, params, read);
-                replace(self.accelerator.map(|a| a.span), span, "Accelerator", self);
-                self.accelerator = accelerator.or(self.accelerator);
+                let known =
+                    self.setting("accelerator", class, params, |args| integrator::accelerator(class, args));
+                replace(self.accelerator, span, "Accelerator", self);
+                self.accelerator = known.map(|()| span).or(self.accelerator);
             }
             Entity::Material => self.material(class, params, span),
             Entity::MakeNamedMaterial => self.named_material(class, params, span),

@@ -49,10 +49,8 @@ pub(super) fn default_film(color_space: ColorSpaceKind, span: Span) -> FilmDesc 
         crop_window: None,
         pixel_bounds: None,
         filename: "pbrt.exr".to_owned(),
-        diagonal_mm: 35.0,
         sensor: SensorDesc { response: SensorResponse::Cie1931, iso: 100.0, white_balance: None },
         max_component_value: None,
-        save_fp16: true,
         color_space,
         span,
     }
@@ -93,16 +91,20 @@ pub(super) fn film(class: &Text, directive: Span, args: &mut Args<'_>) -> Option
         args.error(span, "give \"cropwindow\" or \"pixelbounds\", not both");
     }
     let max = args.float_opt("maxcomponentvalue");
+    // Only lens systems need the size of the film.
+    args.positive("diagonal", 35.0);
+    let half = args.span_of("savefp16");
+    if args.bool("savefp16", false) {
+        args.ctx.diagnostics.notice(half, "\"savefp16\" is ignored: EXR is written in 32-bit float");
+    }
     Some(FilmDesc {
         kind,
         resolution,
         crop_window: crop_window(args),
         pixel_bounds: pixel_bounds(args, resolution),
         filename: args.text("filename").map_or(defaults.filename, |t| t.value),
-        diagonal_mm: args.positive("diagonal", defaults.diagonal_mm),
         sensor: sensor(args),
         max_component_value: max.filter(|m| *m > 0.0),
-        save_fp16: args.bool("savefp16", true),
         color_space: defaults.color_space,
         span: directive,
     })

@@ -4,7 +4,7 @@ use super::camera::CameraSettings;
 use super::context::Context;
 use super::film::{default_film, default_filter};
 use super::input::Imported;
-use super::integrator::{default_accelerator, default_integrator};
+use super::integrator::default_integrator;
 use super::machine::{Importer, Section};
 use super::names::Table;
 use super::sampler::default_sampler;
@@ -49,7 +49,6 @@ pub(super) fn finish(mut importer: Importer<'_>) -> Imported {
             filter: importer.filter.unwrap_or_else(|| default_filter(span)),
             sampler: importer.sampler.unwrap_or_else(|| default_sampler(span)),
             integrator: importer.integrator.unwrap_or_else(|| default_integrator(span)),
-            accelerator: importer.accelerator.unwrap_or_else(|| default_accelerator(span)),
             float_textures: ctx.float_textures.into_values()?,
             spectrum_textures: ctx.spectrum_textures.into_values()?,
             texture_order: order,

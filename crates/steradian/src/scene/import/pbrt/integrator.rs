@@ -1,9 +1,7 @@
 //! Integrator and accelerator classes.
 
 use super::args::Args;
-use crate::scene::desc::{
-    AcceleratorDesc, AcceleratorKind, IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc,
-};
+use crate::scene::desc::{IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc};
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
@@ -36,11 +34,14 @@ pub(super) fn integrator(class: &Text, directive: Span, args: &mut Args<'_>) -> 
     let kind = match class.value.as_str() {
         "path" => IntegratorKind::Path(path(args)),
         "volpath" => IntegratorKind::VolPath(path(args)),
-        "simplepath" => IntegratorKind::SimplePath {
-            max_depth: depth(args),
-            sample_lights: args.bool("samplelights", true),
-            sample_bsdf: args.bool("samplebsdf", true),
-        },
+        "simplepath" => {
+            let [lights, bsdf] = ["samplelights", "samplebsdf"].map(|name| args.bool(name, true));
+            if !(lights && bsdf) {
+                let place = args.span_of(if lights { "samplebsdf" } else { "samplelights" });
+                args.ctx.diagnostics.notice(place, "lights and BSDFs are both sampled all the same");
+            }
+            IntegratorKind::SimplePath { max_depth: depth(args) }
+        }
         "simplevolpath" => IntegratorKind::SimpleVolPath { max_depth: depth(args) },
         "lightpath" => IntegratorKind::LightPath { max_depth: depth(args) },
         "randomwalk" => IntegratorKind::RandomWalk { max_depth: depth(args) },
@@ -53,31 +54,27 @@ pub(super) fn integrator(class: &Text, directive: Span, args: &mut Args<'_>) -> 
             }
             IntegratorKind::Bdpt { max_depth: depth(args), regularize: args.bool("regularize", false) }
         }
-        "mlt" => IntegratorKind::Mlt {
-            max_depth: depth(args),
-            bootstrap_samples: args.count("bootstrapsamples", 100_000, COUNTS),
-            chains: args.count("chains", 1000, COUNTS),
-            mutations_per_pixel: args.count("mutationsperpixel", 100, COUNTS),
-            sigma: args.positive("sigma", 0.01),
-            large_step_probability: args.float_where(
-                "largestepprobability",
-                0.3,
-                |v| (0.0..=1.0).contains(&v),
-                "from 0 to 1",
-            ),
-            regularize: args.bool("regularize", false),
-        },
-        "sppm" => IntegratorKind::Sppm {
-            max_depth: depth(args),
-            // pbrt writes its default as −1.
-            photons_per_iteration: args.int_opt("photonsperiteration").and_then(|n| u32::try_from(n).ok()),
-            radius: args.positive("radius", 1.0),
-            seed: args.int_opt("seed"),
-        },
-        "ambientocclusion" => IntegratorKind::AmbientOcclusion {
-            cos_sample: args.bool("cossample", true),
-            max_distance: args.positive("maxdistance", f32::INFINITY),
-        },
+        "mlt" => {
+            for (name, default) in
+                [("bootstrapsamples", 100_000), ("chains", 1000), ("mutationsperpixel", 100)]
+            {
+                args.count(name, default, COUNTS);
+            }
+            args.positive("sigma", 0.01);
+            args.float_where("largestepprobability", 0.3, |v| (0.0..=1.0).contains(&v), "from 0 to 1");
+            IntegratorKind::Mlt { max_depth: depth(args), regularize: args.bool("regularize", false) }
+        }
+        "sppm" => {
+            args.int_opt("photonsperiteration");
+            args.positive("radius", 1.0);
+            args.int_opt("seed");
+            IntegratorKind::Sppm { max_depth: depth(args) }
+        }
+        "ambientocclusion" => {
+            args.bool("cossample", true);
+            args.positive("maxdistance", f32::INFINITY);
+            IntegratorKind::AmbientOcclusion
+        }
         "function" => {
             args.unsupported_class("integrator", class);
             return None;
@@ -104,19 +101,15 @@ fn path(args: &mut Args<'_>) -> PathDesc {
     }
 }
 
-/// The acceleration structure of a scene that has no Accelerator directive.
-pub(super) fn default_accelerator(span: Span) -> AcceleratorDesc {
-    AcceleratorDesc { kind: AcceleratorKind::Bvh, span }
-}
-
-/// Reads the parameters of an accelerator class; `None` when it is unknown (and reported).
-pub(super) fn accelerator(class: &Text, directive: Span, args: &mut Args<'_>) -> Option<AcceleratorDesc> {
-    let kind = match class.value.as_str() {
+/// Checks the parameters of an accelerator class, whose choice is the renderer's; `None` when it is unknown (and
+/// reported).
+pub(super) fn accelerator(class: &Text, args: &mut Args<'_>) -> Option<()> {
+    match class.value.as_str() {
         "bvh" => {
             let methods = [("sah", ()), ("hlbvh", ()), ("middle", ()), ("equal", ())];
             args.choice("splitmethod", (), &methods);
             args.count("maxnodeprims", 4, COUNTS);
-            AcceleratorKind::Bvh
+            Some(())
         }
         "kdtree" => {
             args.int_opt("intersectcost");
@@ -124,12 +117,11 @@ pub(super) fn accelerator(class: &Text, directive: Span, args: &mut Args<'_>) ->
             args.float_where("emptybonus", 0.5, |v| (0.0..=1.0).contains(&v), "from 0 to 1");
             args.int_opt("maxprims");
             args.int_opt("maxdepth");
-            AcceleratorKind::KdTree
+            Some(())
         }
         _ => {
             args.unknown_class("accelerator", class, &["bvh", "kdtree"], &["grid"]);
-            return None;
+            None
         }
-    };
-    Some(AcceleratorDesc { kind, span: directive })
+    }
 }

@@ -8,9 +8,9 @@ use super::state::{Ctm, State, Target};
 use crate::color::ColorSpaceKind;
 use crate::math::{Point, Transform, Vec3};
 use crate::scene::desc::{
-    AcceleratorDesc, AreaLightDesc, CameraDesc, FilmDesc, FilterDesc, Id, InstanceDesc, IntegratorDesc,
-    LightDesc, MaterialDesc, MaterialKind, ObjectDesc, OptionsDesc, SamplerDesc, ShapeDesc, SpectrumDesc,
-    SpectrumParam, SpectrumValue,
+    AreaLightDesc, CameraDesc, FilmDesc, FilterDesc, Id, InstanceDesc, IntegratorDesc, LightDesc,
+    MaterialDesc, MaterialKind, ObjectDesc, OptionsDesc, SamplerDesc, ShapeDesc, SpectrumDesc, SpectrumParam,
+    SpectrumValue,
 };
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::files::{FileBytes, FileSystem, reason};
@@ -100,7 +100,8 @@ pub(super) struct Importer<'f> {
     pub(super) filter: Option<FilterDesc>,
     pub(super) sampler: Option<SamplerDesc>,
     pub(super) integrator: Option<IntegratorDesc>,
-    pub(super) accelerator: Option<AcceleratorDesc>,
+    /// The last Accelerator directive.
+    pub(super) accelerator: Option<Span>,
     pub(super) lights: Vec<LightDesc>,
     pub(super) area_lights: Vec<AreaLightDesc>,
     pub(super) shapes: Vec<ShapeDesc>,

@@ -528,3 +528,18 @@ fn repeated_parameters_are_found_among_many() {
         assert_eq!(imported.sources.location(d.related[0].span).line, first);
     }
 }
+
+#[test]
+fn settings_that_change_the_file_or_the_estimator_of_pbrt_alone_are_announced() {
+    expect_header(
+        "Film \"rgb\" \"bool savefp16\" true",
+        &["1:12: notice: \"savefp16\" is ignored: EXR is written in 32-bit float"],
+    );
+    expect_header("Film \"rgb\" \"bool savefp16\" false \"float diagonal\" 50", &[]);
+    expect_header(
+        "Integrator \"simplepath\" \"bool samplebsdf\" false \"bool samplelights\" false",
+        &["1:49: notice: lights and BSDFs are both sampled all the same"],
+    );
+    let chance = "1:18: error: parameter \"largestepprobability\" must be from 0 to 1, found 2";
+    expect_header("Integrator \"mlt\" \"float largestepprobability\" 2", &[chance]);
+}
