@@ -32,7 +32,7 @@ pub(super) fn check(film: &FilmDesc, camera: &CameraDesc, diagnostics: &mut Diag
     let exposure = (camera.shutter_close - camera.shutter_open) * film.sensor.iso / 100.0;
     if !(exposure.is_normal() && exposure > 0.0) {
         let message =
-            format!("shutter time and ISO make an exposure of {exposure}, which no picture can show");
+            format!("shutter time and ISO make an exposure of {exposure:e}, which no picture can show");
         let error = Diagnostic::error(film.span, message);
         diagnostics.push(error.with_related(camera.span, "the shutter times are the camera's"));
     }

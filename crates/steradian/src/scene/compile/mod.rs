@@ -77,9 +77,8 @@ pub fn compile_with_tables(
     };
     let path = integrator::choose(&desc.integrator, risk, diagnostics);
     let selection = integrator::selection(&desc.integrator, diagnostics);
-    let accel = Accel::build(&set.shapes, &set.layout)
-        .map_err(|e| diagnostics.error(set.span_of(&e).unwrap_or(desc.span), e.to_string()))
-        .ok();
+    let accel =
+        Accel::build(&set.shapes, &set.layout).map_err(|e| set.report(&e, desc.span, diagnostics)).ok();
     if lights.is_empty() {
         diagnostics.warning(desc.span, "the scene has no light: the picture will be black");
     }

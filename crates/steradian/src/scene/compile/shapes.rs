@@ -10,6 +10,7 @@ use crate::scene::compiled::ShapeAttributes;
 use crate::scene::desc::{
     AreaLightDesc, FileRef, Id, MaterialDesc, MaterialKind, SceneDesc, ShapeDesc, ShapeKind,
 };
+use crate::scene::diagnostic::Diagnostics;
 use crate::scene::files::FileSystem;
 use crate::scene::source::Span;
 use crate::shape::{Orientation, Shape, ShapeId};
@@ -29,17 +30,19 @@ pub(super) struct ShapeSet {
 }
 
 impl ShapeSet {
-    /// The statement that an error of the acceleration structure is about, where it is about one.
-    pub(super) fn span_of(&self, error: &AccelError) -> Option<Span> {
-        match error {
-            AccelError::NoSuchShape { shape, .. } | AccelError::UnboundedShape { shape, .. } => {
-                self.spans.get(*shape as usize).copied()
+    /// Reports an error of the acceleration structure at the statement that it is about, or else at `scene`.
+    pub(super) fn report(&self, error: &AccelError, scene: Span, diagnostics: &mut Diagnostics) {
+        const BEYOND: &str = "reaches beyond the range of floats in render space";
+        let (span, message) = match error {
+            AccelError::UnboundedShape { shape, .. } => {
+                (self.spans.get(*shape as usize), format!("the shape {BEYOND}"))
             }
-            AccelError::NoSuchObject { instance, .. } | AccelError::UnboundedInstance { instance } => {
-                self.instance_spans.get(*instance).copied()
+            AccelError::UnboundedInstance { instance } => {
+                (self.instance_spans.get(*instance), format!("the instance {BEYOND}"))
             }
-            _ => None,
-        }
+            other => (None, other.to_string()),
+        };
+        diagnostics.error(span.copied().unwrap_or(scene), message);
     }
 }
 

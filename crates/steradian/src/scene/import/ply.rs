@@ -307,7 +307,7 @@ impl Data<'_> {
         let n = self.scalar(count)?;
         let least = if self.format == Format::Ascii { 1 } else { item.size() };
         if !(0.0..=self.bytes.len() as f64 / least as f64).contains(&n) || n.fract() != 0.0 {
-            return Err(format!("a list of {n} entries"));
+            return Err(format!("a list of {n} entries, more than the file has room for"));
         }
         Ok(n as usize)
     }

@@ -7,6 +7,7 @@ use crate::scene::desc::{FileRef, FloatParam, TextureId};
 use crate::scene::diagnostic::{Diagnostic, nearest};
 use crate::scene::source::Span;
 use crate::scene::text::{Param, ParamType, Params, Text, Values};
+use std::fmt;
 use std::rc::Rc;
 
 /// A parameter that an `Attribute` directive set for later entities of its block.
@@ -227,7 +228,8 @@ impl<'c> Args<'c> {
         if meets(v) {
             return v;
         }
-        self.error(span, format!("parameter \"{name}\" must be {demand}, found {v}"));
+        let shown = Shown(v);
+        self.error(span, format!("parameter \"{name}\" must be {demand}, found {shown}"));
         default
     }
 
@@ -431,6 +433,18 @@ fn repetitions(list: &[Param]) -> Vec<(&Param, &Param)> {
         .collect();
     found.sort_unstable();
     found.into_iter().map(|(again, first)| (&list[first], &list[again])).collect()
+}
+
+/// A number as people write it: with an exponent where it would need many zeros.
+struct Shown(f32);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            0.0 | 1e-4..1e7 => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
+        }
+    }
 }
 
 /// The values that make whole groups of `N`; the parser has already refused anything else.

@@ -94,8 +94,23 @@ fn report_undefined(ctx: &mut Context) {
     for (Names { kind, defined, .. }, name, span) in found {
         let d = Diagnostic::error(span, format!("{kind} \"{name}\" is not defined"));
         // Many wrong names times many right ones is more than anybody waits for.
-        let shown = diagnostics.keeps(Severity::Error);
-        diagnostics.push(if shown { d.with_nearest(name, defined.iter().copied()) } else { d });
+        if !diagnostics.keeps(Severity::Error) {
+            diagnostics.push(d);
+            continue;
+        }
+        let advice = match *kind {
+            "float texture" if kinds[1].defined.contains(&name) => {
+                Some("there is a spectrum texture of this name, but numbers are needed here")
+            }
+            "spectrum texture" if kinds[0].defined.contains(&name) => {
+                Some("there is a float texture of this name, but spectra are needed here")
+            }
+            _ => None,
+        };
+        diagnostics.push(match advice {
+            Some(advice) => d.with_help(advice),
+            None => d.with_nearest(name, defined.iter().copied()),
+        });
     }
 }
 

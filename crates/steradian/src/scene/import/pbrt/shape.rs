@@ -21,7 +21,11 @@ pub(super) fn shape(class: &Text, args: &mut Args<'_>) -> Option<ShapeKind> {
         "bilinearmesh" => bilinear_mesh(args),
         "sphere" => {
             let radius = args.positive("radius", 1.0);
+            let span = args.span_of("zmin");
             let (z_min, z_max) = (args.float("zmin", -radius), args.float("zmax", radius));
+            if z_min.clamp(-radius, radius) == z_max.clamp(-radius, radius) {
+                args.error(span, "nothing of the sphere lies between \"zmin\" and \"zmax\"");
+            }
             Some(ShapeKind::Sphere { radius, z_min, z_max, phi_max: phi_max(args) })
         }
         "disk" => {
