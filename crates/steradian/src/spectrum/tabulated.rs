@@ -63,13 +63,13 @@ struct Knot {
     slope: f32,
 }
 
-/// A piecewise linear spectrum through samples of any spacing; zero outside their range.
+/// A piecewise linear spectrum through samples of any spacing; zero outside their range. Clones share the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tabulated {
-    knots: Box<[Knot]>,
+    knots: Arc<[Knot]>,
     /// Knot at or before the start of each of equally wide buckets of the range: finding a wavelength's segment is one
     /// multiplication and, for data no denser than the buckets, at most one step.
-    first: Box<[u32]>,
+    first: Arc<[u32]>,
     buckets_per_nm: f32,
 }
 
@@ -106,7 +106,7 @@ impl Tabulated {
     }
 
     fn from_sorted(pairs: &[(f32, f32)]) -> Self {
-        let mut knots: Box<[Knot]> =
+        let mut knots: Vec<Knot> =
             pairs.iter().map(|&(lambda, value)| Knot { lambda, value, slope: 0.0 }).collect();
         for i in 1..knots.len() {
             let (here, next) = (knots[i - 1], knots[i]);
@@ -126,7 +126,7 @@ impl Tabulated {
             })
             .collect();
         let buckets_per_nm = if range > 0.0 { buckets as f32 / range } else { 0.0 };
-        Self { knots, first, buckets_per_nm }
+        Self { knots: knots.into(), first, buckets_per_nm }
     }
 
     /// The value at `lambda` [nm]; zero outside [`Tabulated::range`].
@@ -165,12 +165,9 @@ impl Tabulated {
 
     /// The same spectrum with every value multiplied by `factor`.
     #[must_use]
-    pub fn scaled(mut self, factor: f32) -> Self {
-        for k in &mut self.knots {
-            k.value *= factor;
-            k.slope *= factor;
-        }
-        self
+    pub fn scaled(self, factor: f32) -> Self {
+        let scaled = |k: &Knot| Knot { value: k.value * factor, slope: k.slope * factor, ..*k };
+        Self { knots: self.knots.iter().map(scaled).collect(), ..self }
     }
 
     /// The spectrum with its first and last value held as far as `min` and `max` [nm].

@@ -10,6 +10,8 @@ use crate::spectrum::named::{named, names};
 use crate::spectrum::tabulated::Tabulated;
 use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum, spd};
 use crate::units::Kelvin;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What an RGB triple stands for, by the parameter that holds it.
@@ -23,11 +25,13 @@ pub(super) enum Meaning {
     Illuminant,
 }
 
-/// Converts spectra; colour spaces are set up once, when the first colour in them is met.
+/// Converts spectra; colour spaces and tables are set up once, when they are first met.
 pub(super) struct SpectrumCompiler<'a> {
     files: &'a dyn FileSystem,
     tables: &'a UpsamplingTables,
     spaces: [Option<ColorSpace>; 4],
+    named: BTreeMap<String, Spectrum>,
+    files_read: BTreeMap<PathBuf, Spectrum>,
     /// Wavelengths beyond 360–830 nm that the film records [nm]; data must reach as far.
     beyond_visible: Option<[f32; 2]>,
 }
@@ -42,7 +46,14 @@ impl<'a> SpectrumCompiler<'a> {
             }
             FilmKind::Spectral { .. } | FilmKind::Rgb | FilmKind::GBuffer { .. } => None,
         };
-        Self { files, tables, spaces: [const { None }; 4], beyond_visible }
+        Self {
+            files,
+            tables,
+            spaces: [const { None }; 4],
+            named: BTreeMap::new(),
+            files_read: BTreeMap::new(),
+            beyond_visible,
+        }
     }
 
     /// A colour space, set up when it is first asked for.
@@ -106,18 +117,37 @@ impl<'a> SpectrumCompiler<'a> {
                 let pairs: Vec<_> = lambda.iter().copied().zip(values.iter().copied()).collect();
                 tabulated(Tabulated::new(&pairs).map_err(|e| error(e.to_string()))?)
             }
-            SpectrumValue::Named(name) => named(name).map(dense).ok_or_else(|| {
+            SpectrumValue::Named(name) => self.named(name).ok_or_else(|| {
                 let unknown = Diagnostic::error(desc.span, format!("unknown spectrum \"{name}\""));
                 Box::new(unknown.with_nearest(name, names()))
             })?,
-            SpectrumValue::File(path) => {
-                let failed = |e: String| error(format!("cannot read spectrum file {}: {e}", path.display()));
-                let bytes = self.files.read(path).map_err(|e| failed(reason(&e)))?;
-                let text = std::str::from_utf8(&bytes).map_err(|e| failed(e.to_string()))?;
-                tabulated(spd::parse(text).map_err(|e| failed(e.to_string()))?)
-            }
+            SpectrumValue::File(path) => self
+                .file(path)
+                .map_err(|e| error(format!("cannot read spectrum file {}: {e}", path.display())))?,
             SpectrumValue::Illuminant(kind) => self.space(*kind).illuminant().clone(),
         })
+    }
+}
+
+impl SpectrumCompiler<'_> {
+    fn named(&mut self, name: &str) -> Option<Spectrum> {
+        if let Some(known) = self.named.get(name) {
+            return Some(known.clone());
+        }
+        let spectrum = dense(named(name)?);
+        self.named.insert(name.to_owned(), spectrum.clone());
+        Some(spectrum)
+    }
+
+    fn file(&mut self, path: &Path) -> Result<Spectrum, String> {
+        if let Some(known) = self.files_read.get(path) {
+            return Ok(known.clone());
+        }
+        let bytes = self.files.read(path).map_err(|e| reason(&e))?;
+        let text = std::str::from_utf8(&bytes).map_err(|e| e.to_string())?;
+        let spectrum = tabulated(spd::parse(text).map_err(|e| e.to_string())?);
+        self.files_read.insert(path.to_owned(), spectrum.clone());
+        Ok(spectrum)
     }
 }
 
