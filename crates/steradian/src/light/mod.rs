@@ -20,6 +20,7 @@ pub use picture::EmissionPicture;
 pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
 pub use selection::{Chosen, LightSampler};
 
+use bounds::EmitterBounds;
 use selection::Candidate;
 
 use crate::math::{Dir, SurfacePoint, Vec2};
@@ -186,6 +187,21 @@ impl Light {
         }
     }
 
+    /// Where each emitter of the light is and shines, the light's power being `power`; none for lights without a place.
+    fn bounds(&self, shapes: &[Shape], power: f32) -> Vec<EmitterBounds> {
+        match self {
+            Self::DiffuseArea(l) => match shapes.get(l.shape().0 as usize) {
+                Some(shape) => (0..shape.prim_count()).map(|prim| l.bounds(shape, prim, power)).collect(),
+                None => Vec::new(),
+            },
+            Self::Point(l) => vec![l.bounds(power)],
+            Self::Spot(l) => vec![l.bounds(power)],
+            Self::Goniometric(l) => vec![l.bounds(power)],
+            Self::Projection(l) => vec![l.bounds(power)],
+            Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_) => Vec::new(),
+        }
+    }
+
     /// Whether the light has no place in the scene.
     pub fn is_infinite(&self) -> bool {
         matches!(self, Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_))
@@ -214,24 +230,17 @@ impl LightSampler {
                 light: LightId(id),
                 infinite: light.is_infinite(),
                 weights: vec![power],
-                bounds: Vec::new(),
+                bounds: if selection == Selection::Position {
+                    light.bounds(shapes, power)
+                } else {
+                    Vec::new()
+                },
             };
-            match light {
-                Light::DiffuseArea(l) => {
-                    if let Some(shape) = shapes.get(l.shape().0 as usize) {
-                        let prims = 0..shape.prim_count();
-                        candidate.weights = prims.clone().map(|p| power * shape.area(p) / l.area()).collect();
-                        candidate.bounds = prims.map(|prim| l.bounds(shape, prim, power)).collect();
-                    }
-                }
-                Light::Point(l) => candidate.bounds.push(l.bounds(power)),
-                Light::Spot(l) => candidate.bounds.push(l.bounds(power)),
-                Light::Goniometric(l) => candidate.bounds.push(l.bounds(power)),
-                Light::Projection(l) => candidate.bounds.push(l.bounds(power)),
-                Light::Distant(_) | Light::UniformInfinite(_) | Light::ImageInfinite(_) => {}
-            }
-            if selection != Selection::Position {
-                candidate.bounds.clear();
+            if let Light::DiffuseArea(l) = light
+                && let Some(shape) = shapes.get(l.shape().0 as usize)
+            {
+                candidate.weights =
+                    (0..shape.prim_count()).map(|p| power * shape.area(p) / l.area()).collect();
             }
             if selection == Selection::Uniform {
                 candidate.weights.iter_mut().for_each(|w| *w = if *w > 0.0 { 1.0 } else { 0.0 });
