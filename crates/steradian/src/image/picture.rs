@@ -235,6 +235,19 @@ impl Image {
         Self { layout: Layout::Rgb, texels, ..self }
     }
 
+    /// Column, row and value of the first channel that is infinite or not a number, if there is one.
+    pub fn first_not_finite(&self) -> Option<(u32, u32, f32)> {
+        let found = match &self.texels {
+            Texels::U8 { .. } => None,
+            Texels::F16(v) => v.iter().position(|v| !v.is_finite()),
+            Texels::F32(v) => v.iter().position(|v| !v.is_finite()),
+        };
+        found.map(|i| {
+            let texel = (i / self.layout.channels()) as u32;
+            (texel % self.width, texel / self.width, self.value(i))
+        })
+    }
+
     /// All linear values, channels interleaved, rows from the top.
     pub fn to_linear(&self) -> Vec<f32> {
         (0..self.width as usize * self.height as usize * self.layout.channels())

@@ -519,6 +519,33 @@ fn selection_by_position_finds_every_light_with_its_probability_and_favours_the_
 }
 
 #[test]
+fn a_spot_narrower_than_its_falloff_begins_to_fall_at_the_mirrored_angle() {
+    let at = |cone, delta, angle: f32| {
+        let spot = SpotLight::new(
+            Transform::IDENTITY,
+            Point::ORIGIN,
+            Point::new(0.0, 0.0, 1.0),
+            cone,
+            delta,
+            one(),
+            &ABSOLUTE,
+        );
+        let from = Vec3::new(angle.to_radians().sin(), 0.0, angle.to_radians().cos());
+        let w = Wavelengths::sample_visible(0.5);
+        spot.unwrap().sample(&facing(from, -from), &w).map_or(0.0, |s| s.radiance[0])
+    };
+    // pbrt-v4's default falloff of 5 degrees on a cone of 4: full within 1 degree, dark beyond 4.
+    for angle in [0.0_f32, 0.9, 2.0, 3.0, 3.9, 4.1] {
+        let (x, full, dark) = (angle.to_radians().cos(), 1_f32.to_radians().cos(), 4_f32.to_radians().cos());
+        let expected = crate::math::float::smoothstep(x, dark, full);
+        assert!((at(4.0, 5.0, angle) - expected).abs() < 2e-3, "{angle}: {}", at(4.0, 5.0, angle));
+    }
+    // A falloff that could only begin outside the cone leaves none.
+    assert!((at(2.0, 5.0, 1.9) - 1.0).abs() < 1e-4);
+    assert_eq!(at(2.0, 5.0, 2.1), 0.0);
+}
+
+#[test]
 fn impossible_lights_are_refused() {
     let infrared = Spectrum::Tabulated(Tabulated::new(&[(900.0, 1.0), (1000.0, 1.0)]).unwrap());
     let t = Transform::IDENTITY;
@@ -534,7 +561,7 @@ fn impossible_lights_are_refused() {
     assert_eq!(Light::Point(black).power(1.0), LightPower::default());
     assert_eq!(DistantLight::new(t, origin, origin, one(), &ABSOLUTE).unwrap_err(), LightError::NoDirection);
     assert!(matches!(
-        SpotLight::new(t, origin, Point::new(1.0, 0.0, 0.0), 10.0, 20.0, one(), &ABSOLUTE),
+        SpotLight::new(t, origin, Point::new(1.0, 0.0, 0.0), 10.0, -1.0, one(), &ABSOLUTE),
         Err(LightError::Cone { .. })
     ));
     let oblong = ImageInfiniteLight::new(t, picture([4, 2], sky), &Stated::default());

@@ -7,10 +7,10 @@ use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::Radiance;
 use std::sync::Arc;
 
-/// An emitting picture. Texel (1, 1, 1) is the white of its colour space, at unit photometric amount before scaling.
+/// An emitting picture; clones, and lights that show the same file, share its texels. Texel (1, 1, 1) is the white of its colour space, at unit photometric amount before scaling.
 #[derive(Clone, Debug)]
 pub struct EmissionPicture {
-    image: Image,
+    image: Arc<Image>,
     upsampling: Arc<UpsamplingTable>,
     white: Spectrum,
     white_integral: f32,
@@ -22,14 +22,14 @@ pub struct EmissionPicture {
 
 impl EmissionPicture {
     /// A picture in `space`, for which `upsampling` was built.
-    pub fn new(image: Image, upsampling: Arc<UpsamplingTable>, space: &ColorSpace) -> Self {
+    pub fn new(image: impl Into<Arc<Image>>, upsampling: Arc<UpsamplingTable>, space: &ColorSpace) -> Self {
         let white = space.illuminant().clone();
         let luminance =
             Vec3::from_array([Vec3::X, Vec3::Y, Vec3::Z].map(|primary| space.luminance(Rgb(primary))));
         Self {
             white_integral: white.photometric_integral(),
             white,
-            image,
+            image: image.into(),
             upsampling,
             luminance,
             factor: 1.0,

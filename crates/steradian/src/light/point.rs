@@ -13,6 +13,7 @@ use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::{Density, Radiance};
 use glam::{Mat3, Mat4};
 use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Where a point light stands and how directions are measured there.
 #[derive(Clone, Copy, Debug)]
@@ -115,6 +116,9 @@ pub struct SpotLight {
 impl SpotLight {
     /// A light at `from` shining towards `to` (light space) in a cone of half angle `cone` degrees, of which the outer
     /// `delta` degrees fall off by a smoothstep of the cosine. A stated total is in lumen.
+    ///
+    /// As in pbrt-v4, a falloff wider than the cone begins at the mirrored angle `delta` − `cone`: the cosine is even.
+    /// One wider than twice the cone would begin outside it; such a cone is full up to its edge.
     pub fn new(
         render_from_light: Transform,
         from: Point,
@@ -124,14 +128,15 @@ impl SpotLight {
         intensity: Spectrum,
         stated: &Stated,
     ) -> Result<Self, LightError> {
-        if !(cone > 0.0 && cone <= 180.0 && (0.0..=cone).contains(&delta)) {
+        if !(cone > 0.0 && cone <= 180.0 && delta >= 0.0 && delta.is_finite()) {
             return Err(LightError::Cone { cone, delta });
         }
         let axis = Frame::from_z(Dir::new(to - from).ok_or(LightError::NoDirection)?);
         let rotation = Mat4::from_mat3(Mat3::from_cols(axis.s, axis.t, axis.n));
         let rotation = Transform::from_matrix(rotation).ok_or(LightError::Singular)?;
         let stand = Stand::new(render_from_light * Transform::translate(*from) * rotation);
-        let (cos_full, cos_dark) = ((cone - delta).to_radians().cos(), cone.to_radians().cos());
+        let full = (cone - delta).abs().min(cone);
+        let (cos_full, cos_dark) = (full.to_radians().cos(), cone.to_radians().cos());
         let intensity = Emission::new(intensity, stated, Self::solid_angle(cos_full, cos_dark))?;
         Ok(Self { stand, intensity, cos_full, cos_dark })
     }
@@ -165,7 +170,7 @@ impl SpotLight {
 pub struct GoniometricLight {
     stand: Stand,
     intensity: Emission,
-    distribution: Image,
+    distribution: Arc<Image>,
     /// ∫ distribution dω [sr].
     solid_angle: f32,
 }
@@ -175,10 +180,11 @@ impl GoniometricLight {
     /// which the channels are averaged. A stated total is in lumen.
     pub fn new(
         render_from_light: Transform,
-        distribution: Image,
+        distribution: impl Into<Arc<Image>>,
         intensity: Spectrum,
         stated: &Stated,
     ) -> Result<Self, LightError> {
+        let distribution = distribution.into();
         let (width, height) = (distribution.width(), distribution.height());
         if width != height {
             return Err(LightError::NotSquare(width, height));

@@ -15,6 +15,7 @@ use crate::math::{Dir, Footprint, Shading, SurfacePoint, hash};
 use crate::spectrum::{Spectrum, Wavelengths};
 use crate::texture::{FloatInput, SpectrumInput, TextureContext, Textures};
 use inputs::Lookup;
+use std::sync::Arc;
 
 /// A material of a [`Materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -137,7 +138,7 @@ pub enum MaterialError {
 #[derive(Clone, Debug, Default)]
 pub struct Materials {
     entries: Vec<Entry>,
-    normal_maps: Vec<Image>,
+    normal_maps: Vec<Arc<Image>>,
 }
 
 #[derive(Clone, Debug)]
@@ -157,7 +158,8 @@ impl Materials {
     ///
     /// # Errors
     /// When the picture has fewer than three channels.
-    pub fn push_normal_map(&mut self, map: Image) -> Result<NormalMapId, MaterialError> {
+    pub fn push_normal_map(&mut self, map: impl Into<Arc<Image>>) -> Result<NormalMapId, MaterialError> {
+        let map = map.into();
         let channels = map.layout().channels();
         if channels < 3 {
             return Err(MaterialError::NormalMapChannels(channels));

@@ -1,6 +1,6 @@
 //! From light statements to lights.
 
-use super::pictures;
+use super::pictures::Reading;
 use super::shapes::EmittingShape;
 use super::spectra::Meaning;
 use super::textures::TextureCompiler;
@@ -16,14 +16,13 @@ use crate::scene::desc::{
     self, AreaLightDesc, FileRef, LightDesc, LightKind, Normalization, SceneDesc, SpectrumDesc,
 };
 use crate::scene::diagnostic::Diagnostic;
-use crate::scene::files::FileSystem;
 use crate::scene::source::Span;
 use crate::shape::Shape;
 use crate::spectrum::Spectrum;
+use std::sync::Arc;
 
 /// Compiles lights.
 pub(super) struct LightCompiler<'a, 'b> {
-    pub(super) files: &'a dyn FileSystem,
     pub(super) textures: &'b mut TextureCompiler<'a>,
     pub(super) render_from_world: Transform,
 }
@@ -81,7 +80,7 @@ impl LightCompiler<'_, '_> {
                     .map(Light::Spot)
             }
             LightKind::Goniometric { intensity, file, power } => {
-                let picture = self.square_picture(file)?;
+                let picture = self.square_picture(file, "y")?;
                 let intensity = self.spectrum(intensity);
                 GoniometricLight::new(t, picture, intensity, &stated(*power))
                     .map(|l| Light::Goniometric(Box::new(l)))
@@ -99,7 +98,13 @@ impl LightCompiler<'_, '_> {
                 UniformInfiniteLight::new(radiance, &stated(*illuminance)).map(Light::UniformInfinite)
             }
             LightKind::ImageInfinite { file, illuminance } => {
-                let map = self.square_picture(file)?;
+                if illuminance.is_some() {
+                    self.textures.diagnostics.notice(
+                        desc.span,
+                        "the map gives the stated illuminance; pbrt-v4 would make it twice as bright",
+                    );
+                }
+                let map = self.square_picture(file, "z")?;
                 let picture = self.emission(map);
                 ImageInfiniteLight::new(t, picture, &stated(*illuminance))
                     .map(|l| Light::ImageInfinite(Box::new(l)))
@@ -126,19 +131,24 @@ impl LightCompiler<'_, '_> {
     }
 
     fn emission_picture(&mut self, file: &FileRef) -> Option<EmissionPicture> {
-        let image = pictures::read(self.files, file, None, self.textures.diagnostics)?;
+        let image = self.picture(file)?;
         Some(self.emission(image))
     }
 
-    fn emission(&mut self, image: Image) -> EmissionPicture {
+    fn picture(&mut self, file: &FileRef) -> Option<Arc<Image>> {
+        self.textures.pictures.get(file, Reading::Color, self.textures.diagnostics)
+    }
+
+    fn emission(&mut self, image: Arc<Image>) -> EmissionPicture {
         let kind = image.color_space();
         let table = self.textures.spectra.table(kind);
         EmissionPicture::new(image, table, self.textures.spectra.space(kind))
     }
 
-    /// A picture of all directions. One of twice the width is taken for latitude and longitude, which pbrt-v4 refuses.
-    fn square_picture(&mut self, file: &FileRef) -> Option<Image> {
-        let image = pictures::read(self.files, file, None, self.textures.diagnostics)?;
+    /// A picture of all directions, whose pole is the axis `pole` of light space. One of twice the width is taken for
+    /// latitude and longitude, which pbrt-v4 refuses.
+    fn square_picture(&mut self, file: &FileRef, pole: &str) -> Option<Arc<Image>> {
+        let image = self.picture(file)?;
         if image.width() != 2 * image.height() {
             return Some(image);
         }
@@ -153,10 +163,10 @@ impl LightCompiler<'_, '_> {
         );
         self.textures
             .diagnostics
-            .push(notice.with_help("+z is the top row, azimuth 0 (+x) the first column"));
+            .push(notice.with_help(format!("+{pole} is the top row, azimuth 0 (+x) the first column")));
         let space = image.color_space();
         latlong_to_octahedral(&image, image.height())
-            .map(|square| square.with_color_space(space))
+            .map(|square| Arc::new(square.with_color_space(space)))
             .map_err(|e| self.textures.diagnostics.error(file.span, e.to_string()))
             .ok()
     }

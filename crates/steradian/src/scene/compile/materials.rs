@@ -1,16 +1,18 @@
 //! From material statements to materials.
 
-use super::pictures;
+use super::pictures::Reading;
 use super::spectra::Meaning;
 use super::textures::TextureCompiler;
-use crate::image::ColorEncoding;
-use crate::material::{CoatInput, Detail, Material, MaterialId, Materials, Metal, Roughness, RoughnessScale};
-use crate::scene::desc::{
-    ConductorOptics, FloatParam, Id, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc, SpectrumParam,
+use crate::material::{
+    CoatInput, Detail, Material, MaterialId, Materials, Metal, NormalMapId, Roughness, RoughnessScale,
 };
-use crate::scene::files::FileSystem;
+use crate::scene::desc::{
+    ConductorOptics, FileRef, Id, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc, SpectrumParam,
+};
 use crate::spectrum::Spectrum;
-use crate::texture::SpectrumInput;
+use crate::texture::{FloatInput, SpectrumInput};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// The materials, and which of them a description's material became.
 pub(super) struct CompiledMaterials {
@@ -26,12 +28,14 @@ impl CompiledMaterials {
 }
 
 /// Compiles every material of the scene, used or not, so that every fault is reported.
-pub(super) fn compile(
-    descs: &[MaterialDesc],
-    files: &dyn FileSystem,
-    textures: &mut TextureCompiler<'_>,
-) -> CompiledMaterials {
-    let mut compiler = MaterialCompiler { files, textures, materials: Materials::new() };
+pub(super) fn compile(descs: &[MaterialDesc], textures: &mut TextureCompiler<'_>) -> CompiledMaterials {
+    let mut compiler =
+        MaterialCompiler { textures, materials: Materials::new(), normal_maps: BTreeMap::new() };
+    for mix in descs.iter().filter(|d| mixes_interface(&d.kind, descs)) {
+        let message =
+            "an interface inside a mix is not supported: it would let rays pass, but not the light of lamps";
+        compiler.textures.diagnostics.error(mix.span, message);
+    }
     let mut ids: Vec<Option<MaterialId>> = vec![None; descs.len()];
     // A mix may name materials that are stated after it: whoever has all its parts is next. No mix contains itself, so
     // every round makes progress until all are done.
@@ -53,6 +57,14 @@ pub(super) fn compile(
     CompiledMaterials { materials: compiler.materials, ids }
 }
 
+/// Whether a material chooses between an interface and something else.
+fn mixes_interface(kind: &MaterialKind, descs: &[MaterialDesc]) -> bool {
+    let is_interface = |id: &Id<MaterialDesc>| {
+        descs.get(id.index()).is_some_and(|d| matches!(d.kind, MaterialKind::Interface))
+    };
+    matches!(kind, MaterialKind::Mix { materials, .. } if materials.iter().any(is_interface))
+}
+
 /// The compiled parts of a mix (any two for other materials); `None` while one is missing.
 fn parts(kind: &MaterialKind, ids: &[Option<MaterialId>]) -> Option<[MaterialId; 2]> {
     match kind {
@@ -64,13 +76,13 @@ fn parts(kind: &MaterialKind, ids: &[Option<MaterialId>]) -> Option<[MaterialId;
     }
 }
 
-struct MaterialCompiler<'a, 'b, 'c> {
-    files: &'a dyn FileSystem,
-    textures: &'b mut TextureCompiler<'c>,
+struct MaterialCompiler<'a, 'b> {
+    textures: &'a mut TextureCompiler<'b>,
     materials: Materials,
+    normal_maps: BTreeMap<PathBuf, NormalMapId>,
 }
 
-impl MaterialCompiler<'_, '_, '_> {
+impl MaterialCompiler<'_, '_> {
     fn add(&mut self, desc: &MaterialDesc, parts: [MaterialId; 2]) -> MaterialId {
         let material = self.material(&desc.kind, parts);
         let detail = self.detail(desc);
@@ -123,22 +135,30 @@ impl MaterialCompiler<'_, '_, '_> {
 
     fn detail(&mut self, desc: &MaterialDesc) -> Detail {
         if let Some(file) = &desc.normal_map {
-            // Components of vectors are not colours: no transfer function applies to them.
-            let map =
-                pictures::read(self.files, file, Some(ColorEncoding::Linear), self.textures.diagnostics);
-            let Some(map) = map else { return Detail::Flat };
-            return match self.materials.push_normal_map(map) {
-                Ok(id) => Detail::Normals(id),
-                Err(e) => {
-                    let message = format!("{}: {e}", file.path.display());
-                    self.textures.diagnostics.error(file.span, message);
-                    Detail::Flat
-                }
-            };
+            return self.normal_map(file).map_or(Detail::Flat, Detail::Normals);
         }
-        match &desc.displacement {
-            None | Some(FloatParam::Value(_)) => Detail::Flat,
-            Some(height) => Detail::Bump(self.textures.float(height)),
+        match desc.displacement.as_ref().map(|height| self.textures.float(height)) {
+            // A constant height moves the surface without tilting it.
+            None | Some(FloatInput::Constant(_)) => Detail::Flat,
+            Some(height) => Detail::Bump(height),
+        }
+    }
+
+    fn normal_map(&mut self, file: &FileRef) -> Option<NormalMapId> {
+        if let Some(&id) = self.normal_maps.get(&file.path) {
+            return Some(id);
+        }
+        let map = self.textures.pictures.get(file, Reading::Vector, self.textures.diagnostics)?;
+        match self.materials.push_normal_map(map) {
+            Ok(id) => {
+                self.normal_maps.insert(file.path.clone(), id);
+                Some(id)
+            }
+            Err(e) => {
+                let message = format!("{}: {e}", file.path.display());
+                self.textures.diagnostics.error(file.span, message);
+                None
+            }
         }
     }
 

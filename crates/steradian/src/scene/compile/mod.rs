@@ -48,7 +48,7 @@ pub fn compile_with_tables(
     let kind = view::sampler_kind(&desc.sampler, diagnostics);
 
     let mut textures = TextureCompiler::new(desc, files, tables, render_from_world, diagnostics);
-    let materials = materials::compile(&desc.materials, files, &mut textures);
+    let materials = materials::compile(&desc.materials, &mut textures);
     let mut set = ShapeCompiler {
         files,
         textures: &mut textures,
@@ -60,7 +60,7 @@ pub fn compile_with_tables(
     .compile(geometry);
 
     let mut lights: Vec<Light> = Vec::new();
-    let mut compiler = LightCompiler { files, textures: &mut textures, render_from_world };
+    let mut compiler = LightCompiler { textures: &mut textures, render_from_world };
     for emitting in &set.emitters {
         let index = emitting.shape.0 as usize;
         if let Some(light) = compiler.area(desc, emitting, &set.shapes[index]) {
@@ -79,7 +79,8 @@ pub fn compile_with_tables(
     let selection = integrator::selection(&desc.integrator, diagnostics);
     let accel =
         Accel::build(&set.shapes, &set.layout).map_err(|e| set.report(&e, desc.span, diagnostics)).ok();
-    if lights.is_empty() {
+    // A light that was refused has an error already.
+    if desc.lights.is_empty() && set.emitters.is_empty() {
         diagnostics.warning(desc.span, "the scene has no light: the picture will be black");
     }
     let (camera, accel) = (camera?, accel?);
@@ -139,3 +140,6 @@ fn scatters_discretely(kind: &MaterialKind) -> bool {
         | MaterialKind::Interface => false,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! From texture statements to the arena of textures.
 
-use super::pictures;
+use super::pictures::{self, Pictures};
 use super::spectra::{Meaning, SpectrumCompiler};
 use crate::color::{ColorSpaceKind, UpsamplingTables};
 use crate::image::{ColorEncoding, Pyramid, Wrap};
@@ -14,9 +14,9 @@ use crate::scene::files::FileSystem;
 use crate::scene::source::Span;
 use crate::spectrum::Spectrum;
 use crate::texture::{
-    Blend, ColorTableId, Corners, FloatInput, FloatTexture, FloatTextureId, ImageFilter, ImageId,
-    ImageTexture, Mapping2d, Mapping3d, Marble, NoiseKind, Octaves, Pattern, SpectrumInput, SpectrumTexture,
-    SpectrumTextureId, SpectrumUse, Textures, Weight,
+    Blend, ColorTableId, Corners, FloatInput, FloatTexture, ImageFilter, ImageId, ImageTexture, Mapping2d,
+    Mapping3d, Marble, NoiseKind, Octaves, Pattern, SpectrumInput, SpectrumTexture, SpectrumUse, Textures,
+    Weight,
 };
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -25,12 +25,13 @@ use std::path::PathBuf;
 pub(super) struct TextureCompiler<'a> {
     pub(super) textures: Textures,
     pub(super) spectra: SpectrumCompiler<'a>,
+    pub(super) pictures: Pictures<'a>,
     pub(super) diagnostics: &'a mut Diagnostics,
     desc: &'a SceneDesc,
     files: &'a dyn FileSystem,
     render_from_world: Transform,
-    floats: Vec<Option<FloatTextureId>>,
-    spectrum_textures: BTreeMap<(usize, Meaning), Option<SpectrumTextureId>>,
+    floats: Vec<Option<FloatInput>>,
+    spectrum_textures: BTreeMap<(usize, Meaning), Option<SpectrumInput>>,
     images: BTreeMap<(PathBuf, String), Option<ImageId>>,
     color_tables: [Option<ColorTableId>; 4],
 }
@@ -50,6 +51,7 @@ impl<'a> TextureCompiler<'a> {
         let mut compiler = Self {
             textures: Textures::new(),
             spectra: SpectrumCompiler::new(files, tables, &desc.film),
+            pictures: Pictures::new(files),
             diagnostics,
             desc,
             files,
@@ -76,8 +78,7 @@ impl<'a> TextureCompiler<'a> {
         match param {
             FloatParam::Value(v) => FloatInput::Constant(*v),
             FloatParam::Texture(id) => {
-                let id = self.floats.get(id.index()).copied().flatten();
-                id.map_or(FloatInput::Constant(FAILED), FloatInput::Texture)
+                self.floats.get(id.index()).copied().flatten().unwrap_or(FloatInput::Constant(FAILED))
             }
         }
     }
@@ -90,7 +91,7 @@ impl<'a> TextureCompiler<'a> {
             }
             SpectrumParam::Texture(id) => self
                 .define_spectrum(*id, meaning)
-                .map_or(SpectrumInput::Constant(Spectrum::Constant(FAILED)), SpectrumInput::Texture),
+                .unwrap_or(SpectrumInput::Constant(Spectrum::Constant(FAILED))),
         }
     }
 
@@ -129,22 +130,13 @@ impl<'a> TextureCompiler<'a> {
     fn define_float(&mut self, id: Id<FloatTextureDesc>) {
         let desc = self.desc;
         let Some(d) = desc.float_texture(id) else { return };
-        let Some(texture) = self.float_texture(d) else { return };
-        self.floats[id.index()] = match self.textures.push_float(texture) {
-            Ok(id) => Some(id),
-            Err(e) => {
-                self.diagnostics.error(d.span, e.to_string());
-                None
-            }
-        };
+        self.floats[id.index()] = self.float_texture(d);
     }
 
-    fn float_texture(&mut self, d: &FloatTextureDesc) -> Option<FloatTexture> {
+    fn float_texture(&mut self, d: &FloatTextureDesc) -> Option<FloatInput> {
         let space = self.texture_from_render(&d.world_from_texture);
-        Some(match &d.kind {
-            FloatTextureKind::Constant { value } => {
-                FloatTexture::Scale { texture: self.float(value), scale: FloatInput::Constant(1.0) }
-            }
+        let texture = match &d.kind {
+            FloatTextureKind::Constant { value } => return Some(self.float(value)),
             FloatTextureKind::Scale { tex, scale } => {
                 FloatTexture::Scale { texture: self.float(tex), scale: self.float(scale) }
             }
@@ -172,21 +164,19 @@ impl<'a> TextureCompiler<'a> {
             FloatTextureKind::Fbm(noise) => noise_texture(NoiseKind::Fbm(octaves(noise)), space),
             FloatTextureKind::Wrinkled(noise) => noise_texture(NoiseKind::Wrinkled(octaves(noise)), space),
             FloatTextureKind::Windy => noise_texture(NoiseKind::Windy, space),
-        })
+        };
+        let pushed = self.textures.push_float(texture).map(FloatInput::Texture);
+        pushed.map_err(|e| self.diagnostics.error(d.span, e.to_string())).ok()
     }
 
     fn float_blend(&mut self, first: &FloatParam, second: &FloatParam, weight: Weight) -> FloatTexture {
         FloatTexture::Blend(Blend { first: self.float(first), second: self.float(second), weight })
     }
 
-    fn define_spectrum(
-        &mut self,
-        id: Id<SpectrumTextureDesc>,
-        meaning: Meaning,
-    ) -> Option<SpectrumTextureId> {
+    fn define_spectrum(&mut self, id: Id<SpectrumTextureDesc>, meaning: Meaning) -> Option<SpectrumInput> {
         let key = (id.index(), meaning);
         if let Some(known) = self.spectrum_textures.get(&key) {
-            return *known;
+            return known.clone();
         }
         // Another meaning of a texture that failed fails alike; its error is known already.
         let failed = meaning != Meaning::Albedo
@@ -195,23 +185,16 @@ impl<'a> TextureCompiler<'a> {
         let defined = if failed {
             None
         } else {
-            desc.spectrum_texture(id).and_then(|d| {
-                let texture = self.spectrum_texture(d, meaning)?;
-                let pushed = self.textures.push_spectrum(texture);
-                pushed.map_err(|e| self.diagnostics.error(d.span, e.to_string())).ok()
-            })
+            desc.spectrum_texture(id).and_then(|d| self.spectrum_texture(d, meaning))
         };
-        self.spectrum_textures.insert(key, defined);
+        self.spectrum_textures.insert(key, defined.clone());
         defined
     }
 
-    fn spectrum_texture(&mut self, d: &SpectrumTextureDesc, meaning: Meaning) -> Option<SpectrumTexture> {
+    fn spectrum_texture(&mut self, d: &SpectrumTextureDesc, meaning: Meaning) -> Option<SpectrumInput> {
         let space = self.texture_from_render(&d.world_from_texture);
-        Some(match &d.kind {
-            SpectrumTextureKind::Constant { value } => SpectrumTexture::Scale {
-                texture: self.spectrum(value, meaning),
-                scale: FloatInput::Constant(1.0),
-            },
+        let texture = match &d.kind {
+            SpectrumTextureKind::Constant { value } => return Some(self.spectrum(value, meaning)),
             SpectrumTextureKind::Scale { tex, scale } => {
                 SpectrumTexture::Scale { texture: self.spectrum(tex, meaning), scale: self.float(scale) }
             }
@@ -257,7 +240,9 @@ impl<'a> TextureCompiler<'a> {
                 variation: *variation,
                 colors: self.color_table(ColorSpaceKind::Srgb),
             }),
-        })
+        };
+        let pushed = self.textures.push_spectrum(texture).map(SpectrumInput::Texture);
+        pushed.map_err(|e| self.diagnostics.error(d.span, e.to_string())).ok()
     }
 
     fn spectrum_blend(

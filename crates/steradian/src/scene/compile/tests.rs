@@ -1,0 +1,152 @@
+use crate::scene::files::{FileBytes, FileSystem, MemoryFiles};
+use crate::scene::import::pbrt::{Imported, Input, import};
+use crate::scene::{Diagnostics, RenderJob, Severity};
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// What compiling a scene gave: the job, and all messages.
+struct Compiled {
+    job: Option<RenderJob>,
+    messages: Vec<(Severity, String)>,
+    shown: String,
+}
+
+fn compile(world: &str, files: &dyn FileSystem) -> Compiled {
+    let text =
+        format!("Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n{world}\n");
+    let input = Input::Text { name: "test.pbrt", bytes: text.as_bytes(), base: Path::new("") };
+    let Imported { scene, sources, mut diagnostics } = import(&[input], files);
+    let job = scene.and_then(|d| super::compile(d, files, &mut diagnostics));
+    let diagnostics: Diagnostics = diagnostics;
+    let messages = diagnostics.iter().map(|d| (d.severity, d.message.clone())).collect();
+    Compiled { job, messages, shown: diagnostics.display(&sources).to_string() }
+}
+
+impl Compiled {
+    fn count(&self, severity: Severity, part: &str) -> usize {
+        self.messages.iter().filter(|(s, m)| *s == severity && m.contains(part)).count()
+    }
+}
+
+/// A colour picture of the given size, of which the last texel is `last`.
+fn pfm(width: usize, height: usize, last: f32) -> Vec<u8> {
+    let mut bytes = format!("PF\n{width} {height}\n-1.0\n").into_bytes();
+    for i in 0..width * height {
+        // The last texel of the bottom row, which PFM stores first.
+        let v = if i == width - 1 { last } else { 0.5 };
+        bytes.extend([v; 3].iter().flat_map(|v| v.to_le_bytes()));
+    }
+    bytes
+}
+
+/// Counts how often each file is read.
+struct Counting {
+    files: MemoryFiles,
+    reads: Mutex<BTreeMap<PathBuf, usize>>,
+}
+
+impl Counting {
+    fn new(files: MemoryFiles) -> Self {
+        Self { files, reads: Mutex::default() }
+    }
+
+    fn reads(&self, path: &str) -> usize {
+        self.reads.lock().unwrap().get(Path::new(path)).copied().unwrap_or(0)
+    }
+}
+
+impl FileSystem for Counting {
+    fn read(&self, path: &Path) -> io::Result<FileBytes> {
+        *self.reads.lock().unwrap().entry(path.to_owned()).or_default() += 1;
+        self.files.read(path)
+    }
+}
+
+#[test]
+fn a_texel_that_is_no_finite_number_is_an_error_where_its_picture_is_named() {
+    for bad in [f32::INFINITY, f32::NAN] {
+        let files = MemoryFiles::new().with("a.pfm", pfm(2, 2, bad));
+        for user in [
+            "LightSource \"infinite\" \"string filename\" \"a.pfm\"",
+            "LightSource \"goniometric\" \"string filename\" \"a.pfm\"",
+            "LightSource \"projection\" \"string filename\" \"a.pfm\"",
+            "AreaLightSource \"diffuse\" \"string filename\" \"a.pfm\" Shape \"sphere\"",
+            "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.pfm\"",
+            "Material \"diffuse\" \"string normalmap\" \"a.pfm\"",
+        ] {
+            let c = compile(user, &files);
+            assert!(c.job.is_none());
+            assert_eq!(c.count(Severity::Error, "the texel in column 1, row 1 is"), 1, "{}", c.shown);
+            assert!(c.shown.contains("test.pbrt:3:"), "{}", c.shown);
+        }
+    }
+}
+
+#[test]
+fn an_interface_inside_a_mix_is_refused() {
+    let c = compile(
+        "MakeNamedMaterial \"air\" \"string type\" \"interface\" MakeNamedMaterial \"wall\" \"string type\" \"diffuse\"
+         Material \"mix\" \"string materials\" [\"air\" \"wall\"] Shape \"sphere\"",
+        &MemoryFiles::new(),
+    );
+    assert_eq!(c.count(Severity::Error, "an interface inside a mix is not supported"), 1, "{}", c.shown);
+}
+
+#[test]
+fn the_illuminance_of_a_map_is_the_true_one_and_differs_from_pbrt_with_notice() {
+    let files = MemoryFiles::new().with("a.pfm", pfm(2, 2, 0.5));
+    let map = |more: &str| format!("LightSource \"infinite\" \"string filename\" \"a.pfm\" {more}");
+    let stated = compile(&map("\"float illuminance\" 100"), &files);
+    assert_eq!(stated.count(Severity::Notice, "twice as bright"), 1, "{}", stated.shown);
+    assert_eq!(compile(&map(""), &files).count(Severity::Notice, "twice as bright"), 0);
+}
+
+#[test]
+fn files_are_read_once_however_many_use_them() {
+    let spd = "400 1\n700 2\n";
+    let files = MemoryFiles::new().with("a.pfm", pfm(2, 2, 0.5)).with("a.spd", spd);
+    let files = Counting::new(files.with("n.pfm", pfm(2, 2, 0.5)));
+    let c = compile(
+        "AreaLightSource \"diffuse\" \"string filename\" \"a.pfm\"
+         Material \"diffuse\" \"string normalmap\" \"n.pfm\" \"spectrum reflectance\" \"a.spd\" Shape \"sphere\"
+         Material \"conductor\" \"string normalmap\" \"n.pfm\" \"spectrum eta\" \"a.spd\" Shape \"sphere\" Shape \"disk\"
+         LightSource \"infinite\" \"string filename\" \"a.pfm\"",
+        &files,
+    );
+    assert!(c.job.is_some(), "{}", c.shown);
+    assert_eq!([files.reads("a.pfm"), files.reads("n.pfm"), files.reads("a.spd")], [1; 3]);
+}
+
+#[test]
+fn only_a_scene_without_any_light_statement_is_said_to_have_none() {
+    let dark = |world: &str| compile(world, &MemoryFiles::new()).count(Severity::Warning, "no light");
+    assert_eq!(dark("Shape \"sphere\""), 1);
+    assert_eq!(dark("LightSource \"infinite\" \"string filename\" \"missing.exr\""), 0);
+    assert_eq!(dark("AreaLightSource \"diffuse\" \"float scale\" -1 Shape \"sphere\""), 0);
+}
+
+#[test]
+fn converted_maps_name_the_pole_of_their_light() {
+    let files = MemoryFiles::new().with("a.pfm", pfm(4, 2, 0.5));
+    for (kind, pole) in [("infinite", "+z is the top row"), ("goniometric", "+y is the top row")] {
+        let c = compile(&format!("LightSource \"{kind}\" \"string filename\" \"a.pfm\""), &files);
+        assert!(c.shown.contains(pole), "{}", c.shown);
+    }
+}
+
+#[test]
+fn a_constant_texture_costs_no_more_than_its_value() {
+    let c = compile(
+        "Texture \"one\" \"float\" \"constant\" \"float value\" 1
+         Texture \"gray\" \"spectrum\" \"constant\" \"rgb value\" [0.5 0.5 0.5]
+         Material \"diffuse\" \"texture reflectance\" \"gray\" \"texture displacement\" \"one\"
+         Shape \"sphere\" \"texture alpha\" \"one\"
+         LightSource \"point\"",
+        &MemoryFiles::new(),
+    );
+    let scene = c.job.expect("no error").scene;
+    assert_eq!(scene.attributes[0].alpha, crate::texture::FloatInput::Constant(1.0));
+    assert!(!scene.materials.needs_footprint(scene.attributes[0].material));
+}
