@@ -3,14 +3,24 @@
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use std::time::Duration;
+use steradian::scene::desc::MAX_SAMPLES;
 
-/// A spectral, physically based renderer.
+/// Steradian: a spectral, physically based renderer for scenes in the pbrt-v4 format.
 #[derive(Debug, Parser)]
 #[command(name = "steradian", version, about, max_term_width = 100, arg_required_else_help = true)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  steradian render                                 the built-in Cornell box, in half a minute
+  steradian render scene.pbrt -o a.exr -o a.png    a scene of your own, to measure and to look at
+  steradian render scene.pbrt --spp 16 --quiet     the same, fast and rough
+  steradian check scene.pbrt                       everything that is wrong with it
+  steradian compare a.exr reference.exr            how far two pictures differ";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -40,7 +50,7 @@ pub(crate) struct Render {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
     /// Samples per pixel, instead of the scene's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     pub(crate) spp: Option<u32>,
     /// Image size in pixels, instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_resolution)]

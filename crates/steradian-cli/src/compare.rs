@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::args;
-use crate::output::{Target, print};
+use crate::output::{Target, print, reason};
 use serde_json::json;
 use std::path::Path;
 use steradian::image::{
@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &args::Compare) -> Result<(), Failure> {
 }
 
 fn read(path: &Path) -> Result<Frame, String> {
-    let bytes = std::fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
+    let bytes = std::fs::read(path).map_err(|e| format!("cannot read {}: {}", path.display(), reason(&e)))?;
     read_frame_exr(&bytes).map_err(|e| format!("cannot read {}: {e}", path.display()))
 }
 

@@ -23,11 +23,12 @@ pub(crate) fn check(arguments: &args::Inspect) -> Result<(), Failure> {
     loading.report(Verbosity::All);
     let diagnostics = &loading.imported.diagnostics;
     let count = |severity| diagnostics.iter().filter(|d| d.severity == severity).count();
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     note(&format!(
-        "{} errors, {} warnings, {} notices",
-        diagnostics.error_count(),
-        count(Severity::Warning),
-        count(Severity::Notice)
+        "{}, {}, {}",
+        counted(diagnostics.error_count(), "error"),
+        counted(count(Severity::Warning), "warning"),
+        counted(count(Severity::Notice), "notice")
     ));
     if diagnostics.has_errors() { Err(Failure::Reported) } else { Ok(()) }
 }

@@ -10,6 +10,7 @@ mod render;
 
 use args::{Cli, Command};
 use clap::Parser as _;
+use clap::error::{ContextKind, ContextValue};
 use std::process::ExitCode;
 
 /// Why a command did not succeed.
@@ -29,7 +30,17 @@ impl From<String> for Failure {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let cli = Cli::try_parse().unwrap_or_else(|e| {
+        // Whoever names a scene and no command most likely wants to see it.
+        if let Some(ContextValue::String(given)) = e.get(ContextKind::InvalidSubcommand)
+            && (given.ends_with(".pbrt") || given.ends_with(".pbrt.gz"))
+        {
+            output::note(&format!("error: a command is missing; try: steradian render {given}"));
+            std::process::exit(2);
+        }
+        e.exit()
+    });
+    let outcome = match cli.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => inspect::info(&arguments),
         Command::Check(arguments) => inspect::check(&arguments),

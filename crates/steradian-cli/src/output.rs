@@ -1,7 +1,7 @@
 //! What the program says, and the files that it writes.
 
 use std::fs::File;
-use std::io::{BufWriter, Write as _};
+use std::io::{BufWriter, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use steradian::image::{Frame, FrameFormat, write_frame};
 
@@ -13,8 +13,17 @@ pub(crate) fn note(text: &str) {
 /// Text on standard output, for results; the error is that of a closed pipe, which ends the program quietly.
 pub(crate) fn print(text: &str) -> Result<(), String> {
     match writeln!(std::io::stdout(), "{text}") {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(format!("cannot write: {e}")),
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(format!("cannot write: {e}")),
         _ => Ok(()),
+    }
+}
+
+/// What went wrong with a file, in words of people.
+pub(crate) fn reason(e: &std::io::Error) -> String {
+    match e.kind() {
+        ErrorKind::NotFound => "no such file".to_owned(),
+        ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => e.to_string(),
     }
 }
 
@@ -26,7 +35,7 @@ pub(crate) struct Target {
 }
 
 impl Target {
-    /// Checks the extension and that the folder exists.
+    /// Checks the extension, and that a file can be made in the folder.
     pub(crate) fn new(path: &Path) -> Result<Self, String> {
         let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
         let format =
@@ -38,18 +47,27 @@ impl Target {
         if path.is_dir() {
             return Err(format!("{} is a folder", path.display()));
         }
-        Ok(Self { path: path.to_owned(), format })
+        let target = Self { path: path.to_owned(), format };
+        let partial = target.partial();
+        File::create(&partial)
+            .and_then(|_| std::fs::remove_file(&partial))
+            .map_err(|e| format!("cannot write into the folder of {}: {}", path.display(), reason(&e)))?;
+        Ok(target)
     }
 
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes beside the target and renames, so that an older picture is never lost to a failed write.
-    pub(crate) fn write(&self, frame: &Frame) -> Result<(), String> {
+    fn partial(&self) -> PathBuf {
         let mut name = self.path.file_name().unwrap_or_default().to_owned();
         name.push(format!(".{}.part", std::process::id()));
-        let partial = self.path.with_file_name(name);
+        self.path.with_file_name(name)
+    }
+
+    /// Writes beside the target and renames, so that an older picture is never lost to a failed write.
+    pub(crate) fn write(&self, frame: &Frame) -> Result<(), String> {
+        let partial = self.partial();
         let failed = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", self.path.display());
         let written = (|| {
             let mut file = BufWriter::new(File::create(&partial).map_err(|e| failed(&e))?);

@@ -1,10 +1,12 @@
 //! Progress on the terminal: a bar where one is looking, plain lines elsewhere.
 
+use crate::output::note;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{IsTerminal as _, Write as _};
+use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 use steradian::render::{Progress, ProgressSink};
+use steradian::scene::RenderJob;
 
 /// How progress is shown.
 pub(crate) enum Reporter {
@@ -37,6 +39,14 @@ impl Reporter {
         Self::Bar(bar)
     }
 
+    /// Says what is about to be rendered, where lines are kept: a log should tell what its numbers are about.
+    pub(crate) fn begin(&self, job: &RenderJob) {
+        if let Self::Lines(_) = self {
+            let [x0, x1, y0, y1] = job.film.window();
+            note(&format!("rendering {} x {} pixels with {} spp", x1 - x0, y1 - y0, job.sampling.spp));
+        }
+    }
+
     pub(crate) fn finish(&self) {
         if let Self::Bar(bar) = self {
             bar.finish_and_clear();
@@ -61,8 +71,7 @@ impl ProgressSink for Reporter {
                 if percent >= lines.next_percent && now >= lines.next_time {
                     lines.next_percent = percent / 10 * 10 + 10;
                     lines.next_time = now + LINE_INTERVAL;
-                    // Nobody is left to tell when standard error is closed.
-                    let _ = writeln!(std::io::stderr(), "{percent:>3}%  {}", describe(p));
+                    note(&format!("{percent:>3}%  {}", describe(p)));
                 }
             }
         }

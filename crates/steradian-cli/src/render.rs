@@ -26,6 +26,7 @@ pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {
     let cancel = CancelToken::new();
     stop_on_interrupt(&cancel);
     let reporter = Reporter::new(arguments.quiet);
+    reporter.begin(&job);
     let options = RenderOptions {
         threads: arguments.threads.map(|n| n as usize),
         time_limit: arguments.time,

@@ -92,10 +92,11 @@ pub fn render(
                 worker.add_samples(state, tile, first..end);
                 let done = tile.bounds().area() as u64 * u64::from(end - first);
                 let traced = state.tally.rays() - rays_before;
+                let samples_done = samples.fetch_add(done, Ordering::Relaxed) + done;
                 sink.update(&Progress {
-                    samples_done: samples.fetch_add(done, Ordering::Relaxed) + done,
+                    samples_done,
                     samples_total: total,
-                    spp_done: first,
+                    spp_done: (samples_done / pixels) as u32,
                     rays: rays.fetch_add(traced, Ordering::Relaxed) + traced,
                     elapsed: start.elapsed(),
                 });

@@ -11,7 +11,7 @@ pub struct Progress {
     pub samples_done: u64,
     /// Pixel samples that the whole render takes.
     pub samples_total: u64,
-    /// Samples per pixel completed over the whole image.
+    /// Samples per pixel so far, on average, rounded down.
     pub spp_done: u32,
     /// Rays traced so far: camera, scattered and shadow rays.
     pub rays: u64,

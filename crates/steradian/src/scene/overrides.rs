@@ -41,7 +41,10 @@ pub enum OverrideError {
 }
 
 fn hint(suggestion: Option<&str>) -> String {
-    suggestion.map_or_else(String::new, |s| format!("; did you mean \"{s}\"?"))
+    suggestion.map_or_else(
+        || format!("; known is \"{}\"", INTEGRATORS.join("\", \"")),
+        |s| format!("; did you mean \"{s}\"?"),
+    )
 }
 
 /// Integrators that can be asked for by name.

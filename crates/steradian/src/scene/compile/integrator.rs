@@ -4,6 +4,7 @@ use crate::light::Selection;
 use crate::scene::desc::{IntegratorDesc, IntegratorKind, LightSamplerKind};
 use crate::scene::diagnostic::{Diagnostic, Diagnostics};
 use crate::scene::job::PathSettings;
+use crate::scene::source::Span;
 
 /// What decides whether a path tracer misses light that another integrator would find.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,9 +15,10 @@ pub(super) struct CausticRisk {
     pub(super) specular_surfaces: bool,
 }
 
-/// Settings of the path tracer for any integrator that it can stand in for.
+/// Settings of the path tracer for any integrator that it can stand in for. `scene` is the place of what nobody stated.
 pub(super) fn choose(
     desc: &IntegratorDesc,
+    scene: Span,
     risk: CausticRisk,
     diagnostics: &mut Diagnostics,
 ) -> PathSettings {
@@ -32,6 +34,10 @@ pub(super) fn choose(
     };
     match desc.kind {
         IntegratorKind::Path(p) => PathSettings { max_depth: p.max_depth, regularize: p.regularize },
+        // The format's default, which nobody asked for by name, is nothing to remark on.
+        IntegratorKind::VolPath(p) if desc.span == scene => {
+            PathSettings { max_depth: p.max_depth, regularize: p.regularize }
+        }
         // Without media it is the same estimator.
         IntegratorKind::VolPath(p) => substitute("volpath", p.max_depth, p.regularize, diagnostics),
         IntegratorKind::SimplePath { max_depth } => substitute("simplepath", max_depth, false, diagnostics),

@@ -75,7 +75,7 @@ pub fn compile_with_tables(
         delta_lights: lights.iter().any(Light::is_delta),
         specular_surfaces: desc.materials.iter().any(|m| scatters_discretely(&m.kind)),
     };
-    let path = integrator::choose(&desc.integrator, risk, diagnostics);
+    let path = integrator::choose(&desc.integrator, desc.span, risk, diagnostics);
     let selection = integrator::selection(&desc.integrator, diagnostics);
     let accel =
         Accel::build(&set.shapes, &set.layout).map_err(|e| set.report(&e, desc.span, diagnostics)).ok();
