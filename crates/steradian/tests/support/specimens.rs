@@ -1,5 +1,6 @@
 //! Small scenes that together use every shape, material, texture, light, camera, film, filter and sampler, and the files
 //! that they read.
+#![allow(dead_code, reason = "each test binary uses its part of this module")]
 #![allow(clippy::expect_used, reason = "tests fail by panicking")]
 
 use std::io::Cursor;
