@@ -75,6 +75,11 @@ impl Conductor {
         self.roughness = self.roughness.regularized();
     }
 
+    /// What holds for it.
+    pub fn claims(&self) -> Claims {
+        Claims::CLOSED_FORM
+    }
+
     /// Examples for the conformance suite.
     pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
         let gold = |ax, ay| Self {

@@ -84,6 +84,11 @@ impl Dielectric {
         self.roughness = self.roughness.regularized();
     }
 
+    /// What holds for it: only light that meets a second facet is lost.
+    pub fn claims(&self) -> Claims {
+        if self.is_specular() { Claims::LOSSLESS } else { Claims::CLOSED_FORM }
+    }
+
     /// Examples for the conformance suite.
     pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
         let of = |eta, ax, ay| Self { eta, roughness: TrowbridgeReitz::new(ax, ay) };
@@ -261,6 +266,11 @@ impl ThinDielectric {
             lobe: Lobe::Specular,
             eta: 1.0,
         })
+    }
+
+    /// What holds for it.
+    pub fn claims(&self) -> Claims {
+        Claims::LOSSLESS
     }
 
     /// Examples for the conformance suite.

@@ -39,6 +39,11 @@ impl Diffuse {
         Lobes { reflection: !self.reflectance.is_zero(), transmission: false }
     }
 
+    /// What holds for it.
+    pub fn claims(&self) -> Claims {
+        if self.reflectance.min() >= 1.0 { Claims::LOSSLESS } else { Claims::CLOSED_FORM }
+    }
+
     /// Examples for the conformance suite.
     pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
         let of = |reflectance| Self { reflectance };
@@ -90,6 +95,12 @@ impl DiffuseTransmission {
     /// Which lobes are present.
     pub fn lobes(&self) -> Lobes {
         Lobes { reflection: !self.reflectance.is_zero(), transmission: !self.transmittance.is_zero() }
+    }
+
+    /// What holds for it.
+    pub fn claims(&self) -> Claims {
+        let lossless = (self.reflectance + self.transmittance).min() >= 1.0;
+        if lossless { Claims::LOSSLESS } else { Claims::CLOSED_FORM }
     }
 
     /// Examples for the conformance suite.

@@ -219,6 +219,11 @@ impl<B: Base> Layered<B> {
         self.base.regularize();
     }
 
+    /// What holds for it.
+    pub fn claims(&self) -> Claims {
+        Claims::ESTIMATED
+    }
+
     /// Whether light that entered can leave into a continuum of directions.
     fn scatters_below(&self) -> bool {
         !(self.coat.interface.is_specular() && self.base.is_specular()) || self.coat.has_medium()

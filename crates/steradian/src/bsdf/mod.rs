@@ -8,6 +8,7 @@ pub mod contract;
 pub mod dielectric;
 pub mod diffuse;
 pub mod layered;
+pub mod measured;
 mod quadrature;
 pub mod specimen;
 pub mod varnished;
@@ -17,7 +18,8 @@ pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
 pub use layered::{Coat, ExitWeights, Layered};
-pub use specimen::{Claims, Specimen};
+pub use measured::{Measured, MeasuredTable};
+pub use specimen::{Claims, Energy, Reciprocity, Specimen, Values};
 pub use varnished::VarnishedDiffuse;
 
 use crate::math::{LocalDir, Vec2};
@@ -26,7 +28,7 @@ use crate::units::{PdfSolidAngle, PerSteradian};
 
 /// How a surface scatters light at one point and at one path's wavelengths.
 #[derive(Clone, Copy, Debug)]
-pub enum Bsdf {
+pub enum Bsdf<'a> {
     /// Lambertian reflection.
     Diffuse(Diffuse),
     /// Lambertian reflection and transmission.
@@ -43,12 +45,14 @@ pub enum Bsdf {
     CoatedDiffuse(Layered<Diffuse>),
     /// A dielectric coat over a metal.
     CoatedConductor(Layered<Conductor>),
+    /// A table of measurements.
+    Measured(Measured<'a>),
 }
 
 // One per path vertex, passed by value.
-const _: () = assert!(size_of::<Bsdf>() <= 192);
+const _: () = assert!(size_of::<Bsdf<'static>>() <= 192);
 
-impl Bsdf {
+impl<'a> Bsdf<'a> {
     /// f [sr⁻¹] for light that arrives from `wi` and is seen from `wo`, without the cosine and without
     /// discrete directions. Zero for directions in the surface; never NaN.
     pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
@@ -61,6 +65,7 @@ impl Bsdf {
             Self::VarnishedDiffuse(b) => b.eval(wo, wi),
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
             Self::CoatedConductor(b) => b.eval(wo, wi, mode),
+            Self::Measured(b) => b.eval(wo, wi),
         }
     }
 
@@ -75,6 +80,7 @@ impl Bsdf {
             Self::VarnishedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedConductor(b) => b.pdf(wo, wi),
+            Self::Measured(b) => b.pdf(wo, wi),
         }
     }
 
@@ -90,6 +96,7 @@ impl Bsdf {
             Self::VarnishedDiffuse(b) => b.sample(wo, uc, u),
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
+            Self::Measured(b) => b.sample(wo, u),
         }
     }
 
@@ -104,6 +111,7 @@ impl Bsdf {
             Self::VarnishedDiffuse(b) => b.lobes(),
             Self::CoatedDiffuse(b) => b.lobes(),
             Self::CoatedConductor(b) => b.lobes(),
+            Self::Measured(b) => b.lobes(),
         }
     }
 
@@ -111,7 +119,8 @@ impl Bsdf {
     /// off unless asked for (pbrt-v4 book, 14.2).
     pub fn regularize(&mut self) {
         match self {
-            Self::Diffuse(_) | Self::DiffuseTransmission(_) | Self::ThinDielectric(_) => {}
+            Self::Diffuse(_) | Self::DiffuseTransmission(_) | Self::ThinDielectric(_) | Self::Measured(_) => {
+            }
             Self::Conductor(b) => b.regularize(),
             Self::Dielectric(b) => b.regularize(),
             Self::VarnishedDiffuse(b) => {
@@ -136,13 +145,29 @@ impl Bsdf {
             | Self::Conductor(_)
             | Self::Dielectric(_)
             | Self::ThinDielectric(_)
-            | Self::VarnishedDiffuse(_) => {}
+            | Self::VarnishedDiffuse(_)
+            | Self::Measured(_) => {}
         }
         self
     }
 
+    /// What holds for this scattering function: what the conformance suite tests when a user asks.
+    pub fn claims(&self) -> Claims {
+        match self {
+            Self::Diffuse(b) => b.claims(),
+            Self::DiffuseTransmission(b) => b.claims(),
+            Self::Conductor(b) => b.claims(),
+            Self::Dielectric(b) => b.claims(),
+            Self::ThinDielectric(b) => b.claims(),
+            Self::VarnishedDiffuse(b) => b.claims(),
+            Self::CoatedDiffuse(b) => b.claims(),
+            Self::CoatedConductor(b) => b.claims(),
+            Self::Measured(b) => b.claims(),
+        }
+    }
+
     /// The specimens of every variant.
-    pub fn specimens() -> Vec<Specimen<Self>> {
+    pub fn specimens(cabinet: &'a Cabinet) -> Vec<Specimen<Self>> {
         let mut all = Vec::new();
         all.extend(Diffuse::specimens().map(|s| s.map(Self::Diffuse)));
         all.extend(DiffuseTransmission::specimens().map(|s| s.map(Self::DiffuseTransmission)));
@@ -152,6 +177,14 @@ impl Bsdf {
         all.extend(VarnishedDiffuse::specimens().map(|s| s.map(Self::VarnishedDiffuse)));
         all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
         all.extend(Layered::<Conductor>::specimens().map(|s| s.map(Self::CoatedConductor)));
+        all.extend(Measured::specimens(&cabinet.measured).map(|s| s.map(Self::Measured)));
         all
     }
+}
+
+/// The data that some specimens refer to.
+#[derive(Debug, Default)]
+pub struct Cabinet {
+    /// Small synthetic measurements.
+    pub measured: Vec<MeasuredTable>,
 }

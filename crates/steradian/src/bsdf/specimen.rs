@@ -1,22 +1,75 @@
-//! Examples that each variant hands to the conformance suite, with what it claims about them.
+//! Examples that each variant hands to the conformance suite, and what a scattering function claims about itself.
 
-/// What a variant claims to hold for a specimen; the suite tests the claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What a scattering function claims to hold; the suite tests the claim.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claims {
-    /// ρ + τ = 1 for every incident direction.
-    pub lossless: bool,
-    /// Values and densities are closed forms, and `density` is that of the samples. Otherwise values are
-    /// unbiased estimates, and the density is only an approximation for multiple importance sampling.
-    pub closed_form: bool,
+    /// What becomes of the light.
+    pub energy: Energy,
+    /// Whether both ways along a path are alike.
+    pub reciprocity: Reciprocity,
+    /// How values come about.
+    pub values: Values,
+}
+
+/// What becomes of the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Energy {
+    /// ρ + τ = 1 for every incident direction, within `tolerance`: 0.002, or 0.01 where compensation is tabulated.
+    Lossless {
+        /// Largest |ρ + τ − 1|.
+        tolerance: f64,
+    },
+    /// ρ + τ ≤ 1, B (2.19).
+    Passive,
+    /// May return more light than arrives: no law of nature. The suite expects to find a direction that shows it.
+    Unbounded,
+}
+
+/// Whether f(wo, wi) η² = f(wi, wo), B (2.18).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reciprocity {
+    /// It holds.
+    Exact,
+    /// It holds approximately: the worst pair is reported and not judged.
+    Reported,
+    /// It does not hold, and the suite expects to find a pair that shows it.
+    Broken,
+}
+
+/// How values come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// Values and densities are closed forms, and `density` is that of the samples.
+    ClosedForm,
+    /// Values are unbiased estimates, and the density is only an approximation for multiple importance sampling.
+    Estimated,
 }
 
 impl Claims {
     /// A closed form that may absorb.
-    pub const CLOSED_FORM: Self = Self { lossless: false, closed_form: true };
+    pub const CLOSED_FORM: Self =
+        Self { energy: Energy::Passive, reciprocity: Reciprocity::Exact, values: Values::ClosedForm };
     /// A closed form that absorbs nothing.
-    pub const LOSSLESS: Self = Self { lossless: true, closed_form: true };
+    pub const LOSSLESS: Self = Self { energy: Energy::Lossless { tolerance: 0.002 }, ..Self::CLOSED_FORM };
     /// An estimate by random walks.
-    pub const ESTIMATED: Self = Self { lossless: false, closed_form: false };
+    pub const ESTIMATED: Self = Self { values: Values::Estimated, ..Self::CLOSED_FORM };
+
+    /// The same claims with another one about energy.
+    #[must_use]
+    pub const fn with_energy(self, energy: Energy) -> Self {
+        Self { energy, ..self }
+    }
+
+    /// The same claims with another one about reciprocity.
+    #[must_use]
+    pub const fn with_reciprocity(self, reciprocity: Reciprocity) -> Self {
+        Self { reciprocity, ..self }
+    }
+
+    /// Whether values and densities are closed forms.
+    pub fn is_closed_form(&self) -> bool {
+        self.values == Values::ClosedForm
+    }
 }
 
 /// A scattering function for the suite.

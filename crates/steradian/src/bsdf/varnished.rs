@@ -95,6 +95,11 @@ impl VarnishedDiffuse {
         self.layers.base.lobes()
     }
 
+    /// What holds for it.
+    pub fn claims(&self) -> Claims {
+        Claims::CLOSED_FORM
+    }
+
     /// Examples for the conformance suite.
     pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
         let of = |eta, thickness, reflectance| {

@@ -225,8 +225,8 @@ impl Materials {
     /// Applies relief to the shading frame, and chooses among mixed materials by a hash of point and direction.
     /// Drops the companions of `w` where directions depend on the wavelength. `seed` starts the random walks of
     /// layered materials.
-    pub fn shade(
-        &self,
+    pub fn shade<'a>(
+        &'a self,
         id: MaterialId,
         point: &SurfacePoint,
         footprint: &Footprint,
@@ -234,7 +234,7 @@ impl Materials {
         textures: &Textures,
         w: &mut Wavelengths,
         seed: u64,
-    ) -> Option<SurfaceBsdf> {
+    ) -> Option<SurfaceBsdf<'a>> {
         let mut entry = &self.entries[id.0 as usize];
         if let Material::Mix { .. } = entry.material {
             entry = self.unmixed(id, &TextureContext { point, footprint }, wo, textures);
@@ -251,7 +251,7 @@ impl Materials {
     ///
     /// Out of line: the hash does not depend on the loop, so that it would be computed before it, for every material.
     #[inline(never)]
-    fn unmixed(&self, id: MaterialId, at: &TextureContext, wo: Dir, textures: &Textures) -> &Entry {
+    fn unmixed(&self, id: MaterialId, at: &TextureContext<'_>, wo: Dir, textures: &Textures) -> &Entry {
         let mut entry = &self.entries[id.0 as usize];
         while let Material::Mix { materials: [first, second], amount } = &entry.material {
             let amount = textures.float_input(amount, at);
@@ -283,7 +283,7 @@ impl Materials {
 }
 
 /// The scattering function of a material that is no mix; `None` for a boundary of media.
-fn scatterer(material: &Material, lookup: &mut Lookup, seed: u64) -> Option<Bsdf> {
+fn scatterer<'a>(material: &'a Material, lookup: &mut Lookup, seed: u64) -> Option<Bsdf<'a>> {
     Some(match material {
         Material::Diffuse { reflectance } => {
             Bsdf::Diffuse(Diffuse { reflectance: lookup.reflectance(reflectance) })

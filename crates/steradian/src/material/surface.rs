@@ -7,8 +7,8 @@ use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
 
 /// A [`Bsdf`] in the shading frame of a surface point.
 #[derive(Clone, Copy, Debug)]
-pub struct SurfaceBsdf {
-    bsdf: Bsdf,
+pub struct SurfaceBsdf<'a> {
+    bsdf: Bsdf<'a>,
     frame: Frame,
 }
 
@@ -29,9 +29,9 @@ pub struct SurfaceSample {
     pub eta: f32,
 }
 
-impl SurfaceBsdf {
+impl<'a> SurfaceBsdf<'a> {
     /// Places `bsdf` on a surface: z is the shading normal, x the shading ∂p/∂u.
-    pub fn new(bsdf: Bsdf, shading: &Shading) -> Self {
+    pub fn new(bsdf: Bsdf<'a>, shading: &Shading) -> Self {
         Self { bsdf, frame: Frame::from_z_x(shading.n, shading.dpdu) }
     }
 
@@ -75,7 +75,7 @@ impl SurfaceBsdf {
     }
 
     /// The scattering function in local coordinates.
-    pub fn bsdf(&self) -> &Bsdf {
+    pub fn bsdf(&self) -> &Bsdf<'a> {
         &self.bsdf
     }
 

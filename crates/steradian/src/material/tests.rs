@@ -22,7 +22,12 @@ fn constant(x: f32) -> SpectrumInput {
     SpectrumInput::Constant(Spectrum::Constant(x))
 }
 
-fn shade(materials: &Materials, id: MaterialId, x: f32, w: &mut Wavelengths) -> Option<SurfaceBsdf> {
+fn shade<'a>(
+    materials: &'a Materials,
+    id: MaterialId,
+    x: f32,
+    w: &mut Wavelengths,
+) -> Option<SurfaceBsdf<'a>> {
     let wo = Dir::new(Vec3::new(0.3, 0.1, 0.8)).unwrap();
     materials.shade(id, &plane(x), &Footprint::ZERO, wo, &Textures::new(), w, 1)
 }

@@ -92,7 +92,7 @@ impl Scene {
     /// The scattering function at a hit; `None` where there is no optical interface.
     ///
     /// `seed` decides the random walks of layered materials.
-    pub fn shade(&self, hit: &SceneHit, wo: Dir, w: &mut Wavelengths, seed: u64) -> Option<SurfaceBsdf> {
+    pub fn shade(&self, hit: &SceneHit, wo: Dir, w: &mut Wavelengths, seed: u64) -> Option<SurfaceBsdf<'_>> {
         let used = self.materials.needs_footprint(hit.material);
         let footprint = if used { self.footprint(&hit.point) } else { Footprint::ZERO };
         self.materials.shade(hit.material, &hit.point, &footprint, wo, &self.textures, w, seed)

@@ -6,7 +6,7 @@
 mod hemisphere;
 mod statistics;
 
-use super::specimen::{Claims, Specimen};
+use super::specimen::{Claims, Energy, Specimen};
 use super::{Bsdf, BsdfSample, Mode};
 use crate::math::hash::{self, Pcg32};
 use crate::math::{LocalDir, Vec2, Vec3, warp};
@@ -102,7 +102,7 @@ pub trait Scatterer: Copy {
     fn with_seed(self, seed: u64) -> Self;
 }
 
-impl Scatterer for Bsdf {
+impl Scatterer for Bsdf<'_> {
     fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
         Self::eval(self, wo, wi, mode)
     }
@@ -210,14 +210,14 @@ impl<B: Scatterer> Bench<'_, B> {
             };
             continuous.add(f64::from(s.weight.mean()));
             counts[hemisphere::cell(s.wi)] += 1.0;
-            if self.claims.closed_form {
+            if self.claims.is_closed_form() {
                 worst_ratio = worst_ratio.max(self.ratio_error(&s, pdf.0, mode));
             }
         }
         let quadrature = self.quadrature(mode);
         let sampled = counts.iter().sum::<f64>() / n;
         let mass: f64 = quadrature.density.iter().sum();
-        if self.claims.closed_form {
+        if self.claims.is_closed_form() {
             // Density and weight share D: their rounding errors add up over a narrow lobe.
             find(Law::WeightIsRatio, Evidence::Bound { observed: worst_ratio, limit: 2e-2 });
             let spread = (sampled * (1.0 - sampled) / n).sqrt();
@@ -239,7 +239,7 @@ impl<B: Scatterer> Bench<'_, B> {
         let by_quadrature = quadrature.power.mean();
         let error = continuous
             .error()
-            .hypot(quadrature.power.error() * f64::from(u8::from(!self.claims.closed_form)));
+            .hypot(quadrature.power.error() * f64::from(u8::from(!self.claims.is_closed_form())));
         find(
             Law::TwoWaysToReflectance,
             Evidence::Equality {
@@ -254,8 +254,8 @@ impl<B: Scatterer> Bench<'_, B> {
                 Law::Energy,
                 Evidence::Bound { observed: all.mean() - 1.645 * all.error(), limit: 1.0 + 1e-5 },
             );
-            if self.claims.lossless {
-                let tolerance = 0.002 - 1.96 * all.error();
+            if let Energy::Lossless { tolerance } = self.claims.energy {
+                let tolerance = tolerance - 1.96 * all.error();
                 find(Law::Energy, Evidence::Equality { observed: all.mean(), expected: 1.0, tolerance });
             }
         }
@@ -281,7 +281,7 @@ impl<B: Scatterer> Bench<'_, B> {
         let mut density = vec![0.0; hemisphere::CELLS];
         let mut power = Moments::default();
         for node in hemisphere::nodes() {
-            if self.claims.closed_form {
+            if self.claims.is_closed_form() {
                 density[node.cell] += f64::from(self.bsdf.pdf(self.wo, node.w, mode).0) * node.solid_angle;
             }
             let f = self.bsdf.eval(self.wo, node.w, mode).mean() * node.w.abs_cos_theta();
@@ -294,7 +294,7 @@ impl<B: Scatterer> Bench<'_, B> {
     fn examine_reciprocity(&self, findings: &mut Vec<Finding>) {
         let mode = Mode::Radiance;
         let mut rng = Pcg32::new(self.effort.seed, 9);
-        let (pairs, repeats) = if self.claims.closed_form { (200, 1) } else { (4, 4000) };
+        let (pairs, repeats) = if self.claims.is_closed_form() { (200, 1) } else { (4, 4000) };
         let mut worst = Evidence::Equality { observed: 0.0, expected: 0.0, tolerance: 0.0 };
         let mut worst_excess = f64::NEG_INFINITY;
         for _ in 0..pairs {
@@ -312,7 +312,8 @@ impl<B: Scatterer> Bench<'_, B> {
                 adjoint.add(f64::from(bsdf.eval(s.wi, self.wo, mode.adjoint()).mean() * eta2));
             }
             for other in [back, adjoint] {
-                let error = if self.claims.closed_form { 0.0 } else { there.error().hypot(other.error()) };
+                let error =
+                    if self.claims.is_closed_form() { 0.0 } else { there.error().hypot(other.error()) };
                 let tolerance = self.effort.sigmas * error + 2e-3 * there.mean().abs();
                 let excess = (there.mean() - other.mean()).abs() - tolerance;
                 if excess > worst_excess {
