@@ -1,5 +1,6 @@
 //! Reflection from metals, smooth or rough.
 
+use super::albedo::Albedo;
 use super::contract::{BsdfSample, Lobe, Lobes, Side};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
@@ -63,6 +64,11 @@ impl Conductor {
             lobe: Lobe::Glossy,
             eta: 1.0,
         })
+    }
+
+    /// ρ for light from `wi` where the metal is smooth.
+    pub fn albedo(&self, wi: LocalDir) -> Option<Albedo> {
+        self.roughness.is_smooth().then(|| Albedo::reflecting(self.fresnel(wi.z)))
     }
 
     /// Which lobes are present.

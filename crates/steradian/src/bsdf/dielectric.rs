@@ -1,5 +1,6 @@
 //! The interface between two transparent media, smooth or rough, and a thin pane of two such interfaces.
 
+use super::albedo::Albedo;
 use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side, Sides};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
@@ -71,6 +72,11 @@ impl Dielectric {
             lobe,
             eta: drawn.eta,
         })
+    }
+
+    /// ρ and τ for light from `wi` where the interface is smooth.
+    pub fn albedo(&self, wi: LocalDir) -> Option<Albedo> {
+        self.is_specular().then(|| Albedo::clear(fresnel::dielectric(wi.z, self.eta)))
     }
 
     /// Which lobes are present.
@@ -266,6 +272,11 @@ impl ThinDielectric {
             lobe: Lobe::Specular,
             eta: 1.0,
         })
+    }
+
+    /// ρ and τ for light from `wi`.
+    pub fn albedo(&self, wi: LocalDir) -> Albedo {
+        Albedo::clear(self.reflectance(wi))
     }
 
     /// What holds for it.

@@ -1,5 +1,6 @@
 //! Scattering that forgets the incident direction: Lambert's law, on one side or both.
 
+use super::albedo::Albedo;
 use super::contract::{BsdfSample, Lobe, Lobes, Side};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, warp};
@@ -32,6 +33,11 @@ impl Diffuse {
     /// A cosine-distributed direction on the side of `wo`.
     pub fn sample(&self, wo: LocalDir, u: Vec2) -> Option<BsdfSample> {
         cosine_sample(wo, Side::Reflection, 1.0, self.reflectance, u)
+    }
+
+    /// ρ, for any direction.
+    pub fn albedo(&self) -> Albedo {
+        Albedo::reflecting(self.reflectance)
     }
 
     /// Which lobes are present.
@@ -90,6 +96,11 @@ impl DiffuseTransmission {
         } else {
             cosine_sample(wo, Side::Transmission, 1.0 - p, self.transmittance, u)
         }
+    }
+
+    /// ρ and τ, for any direction.
+    pub fn albedo(&self) -> Albedo {
+        Albedo { reflectance: self.reflectance, transmittance: self.transmittance }
     }
 
     /// Which lobes are present.

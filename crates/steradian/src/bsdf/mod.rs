@@ -2,6 +2,7 @@
 //!
 //! The contract of every method stands in [`contract`]; each variant's file documents only what differs.
 
+pub mod albedo;
 pub mod conductor;
 pub mod conformance;
 pub mod contract;
@@ -13,6 +14,7 @@ mod quadrature;
 pub mod specimen;
 pub mod varnished;
 
+pub use albedo::Albedo;
 pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
@@ -98,6 +100,24 @@ impl<'a> Bsdf<'a> {
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
             Self::Measured(b) => b.sample(wo, u),
         }
+    }
+
+    /// ρ and τ for light that arrives from `wi`, discrete directions included: in closed form where the variant knows
+    /// one, else by a deterministic average over its own samples.
+    pub fn albedo(&self, wi: LocalDir) -> Albedo {
+        let closed_form = match self {
+            Self::Diffuse(b) => Some(b.albedo()),
+            Self::DiffuseTransmission(b) => Some(b.albedo()),
+            Self::Conductor(b) => b.albedo(wi),
+            Self::Dielectric(b) => b.albedo(wi),
+            Self::ThinDielectric(b) => Some(b.albedo(wi)),
+            Self::VarnishedDiffuse(b) => Some(b.albedo(wi)),
+            Self::CoatedDiffuse(_) | Self::CoatedConductor(_) | Self::Measured(_) => None,
+        };
+        closed_form.unwrap_or_else(|| {
+            // Towards sensors, weights are ratios of power.
+            Albedo::by_sampling(|uc, u| self.sample(wi, uc, u, Mode::Importance))
+        })
     }
 
     /// Which continuous lobes are present.

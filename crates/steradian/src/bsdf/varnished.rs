@@ -3,6 +3,7 @@
 //! A Lambertian base forgets where light came from, so that the orders of reflection under the coat form a geometric series:
 //! this is the random walk of [`Layered`] with every integral done (Saunderson 1942, with directions and absorption).
 
+use super::albedo::Albedo;
 use super::contract::{BsdfSample, Lobe, Lobes, Side};
 use super::diffuse::Diffuse;
 use super::layered::{Coat, Layered};
@@ -88,6 +89,19 @@ impl VarnishedDiffuse {
             lobe: Lobe::Glossy,
             eta: 1.0,
         })
+    }
+
+    /// ρ for light from `wi`: the mirror reflection, and ∫ f cosθ dω by Gauss' rule.
+    pub fn albedo(&self, wi: LocalDir) -> Albedo {
+        let mirror = fresnel::dielectric(wi.abs_cos_theta(), self.layers.coat.interface.eta);
+        // Over cos²θ, in which the measure is uniform; f varies with the cosines alone.
+        let mut below = Sampled::<PerSteradian>::ZERO;
+        for [x, weight] in GAUSS_LEGENDRE {
+            let cos = safe_sqrt(x as f32).copysign(wi.z);
+            let wo = LocalDir::new_unchecked(Vec3::new(safe_sqrt(1.0 - cos * cos), 0.0, cos));
+            below += self.eval(wo, wi) * (std::f32::consts::PI * weight as f32);
+        }
+        Albedo::reflecting(Sampled::splat(mirror) + below.cast())
     }
 
     /// Which lobes are present.
