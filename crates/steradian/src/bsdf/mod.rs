@@ -10,6 +10,7 @@ pub mod dielectric;
 pub mod diffuse;
 pub mod layered;
 pub mod measured;
+pub mod oren_nayar;
 mod quadrature;
 pub mod specimen;
 pub mod varnished;
@@ -21,6 +22,7 @@ pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
 pub use layered::{Coat, ExitWeights, Layered};
 pub use measured::{Measured, MeasuredTable};
+pub use oren_nayar::OrenNayar;
 pub use specimen::{Claims, Energy, Reciprocity, Specimen, Values};
 pub use varnished::VarnishedDiffuse;
 
@@ -35,6 +37,8 @@ pub enum Bsdf<'a> {
     Diffuse(Diffuse),
     /// Lambertian reflection and transmission.
     DiffuseTransmission(DiffuseTransmission),
+    /// Rough diffuse reflection.
+    OrenNayar(OrenNayar),
     /// A metal.
     Conductor(Conductor),
     /// The interface between two transparent media.
@@ -61,6 +65,7 @@ impl<'a> Bsdf<'a> {
         match self {
             Self::Diffuse(b) => b.eval(wo, wi),
             Self::DiffuseTransmission(b) => b.eval(wo, wi),
+            Self::OrenNayar(b) => b.eval(wo, wi),
             Self::Conductor(b) => b.eval(wo, wi),
             Self::Dielectric(b) => b.eval(wo, wi, mode),
             Self::ThinDielectric(_) => Sampled::ZERO,
@@ -76,6 +81,7 @@ impl<'a> Bsdf<'a> {
         match self {
             Self::Diffuse(b) => b.pdf(wo, wi),
             Self::DiffuseTransmission(b) => b.pdf(wo, wi),
+            Self::OrenNayar(b) => b.pdf(wo, wi),
             Self::Conductor(b) => b.pdf(wo, wi),
             Self::Dielectric(b) => b.pdf(wo, wi),
             Self::ThinDielectric(_) => PdfSolidAngle(0.0),
@@ -92,6 +98,7 @@ impl<'a> Bsdf<'a> {
         match self {
             Self::Diffuse(b) => b.sample(wo, u),
             Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
+            Self::OrenNayar(b) => b.sample(wo, uc, u),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u, mode),
             Self::ThinDielectric(b) => b.sample(wo, uc),
@@ -125,6 +132,7 @@ impl<'a> Bsdf<'a> {
         match self {
             Self::Diffuse(b) => b.lobes(),
             Self::DiffuseTransmission(b) => b.lobes(),
+            Self::OrenNayar(b) => b.lobes(),
             Self::Conductor(b) => b.lobes(),
             Self::Dielectric(b) => b.lobes(),
             Self::ThinDielectric(_) => Lobes::default(),
@@ -139,8 +147,11 @@ impl<'a> Bsdf<'a> {
     /// off unless asked for (pbrt-v4 book, 14.2).
     pub fn regularize(&mut self) {
         match self {
-            Self::Diffuse(_) | Self::DiffuseTransmission(_) | Self::ThinDielectric(_) | Self::Measured(_) => {
-            }
+            Self::Diffuse(_)
+            | Self::DiffuseTransmission(_)
+            | Self::ThinDielectric(_)
+            | Self::Measured(_)
+            | Self::OrenNayar(_) => {}
             Self::Conductor(b) => b.regularize(),
             Self::Dielectric(b) => b.regularize(),
             Self::VarnishedDiffuse(b) => {
@@ -162,6 +173,7 @@ impl<'a> Bsdf<'a> {
             Self::CoatedConductor(b) => b.seed = seed,
             Self::Diffuse(_)
             | Self::DiffuseTransmission(_)
+            | Self::OrenNayar(_)
             | Self::Conductor(_)
             | Self::Dielectric(_)
             | Self::ThinDielectric(_)
@@ -176,6 +188,7 @@ impl<'a> Bsdf<'a> {
         match self {
             Self::Diffuse(b) => b.claims(),
             Self::DiffuseTransmission(b) => b.claims(),
+            Self::OrenNayar(b) => b.claims(),
             Self::Conductor(b) => b.claims(),
             Self::Dielectric(b) => b.claims(),
             Self::ThinDielectric(b) => b.claims(),
@@ -191,6 +204,7 @@ impl<'a> Bsdf<'a> {
         let mut all = Vec::new();
         all.extend(Diffuse::specimens().map(|s| s.map(Self::Diffuse)));
         all.extend(DiffuseTransmission::specimens().map(|s| s.map(Self::DiffuseTransmission)));
+        all.extend(OrenNayar::specimens().map(|s| s.map(Self::OrenNayar)));
         all.extend(Conductor::specimens().map(|s| s.map(Self::Conductor)));
         all.extend(Dielectric::specimens().map(|s| s.map(Self::Dielectric)));
         all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));
