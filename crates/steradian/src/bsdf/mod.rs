@@ -115,6 +115,7 @@ impl<'a> Bsdf<'a> {
         let closed_form = match self {
             Self::Diffuse(b) => Some(b.albedo()),
             Self::DiffuseTransmission(b) => Some(b.albedo()),
+            Self::OrenNayar(b) => Some(b.albedo(wi)),
             Self::Conductor(b) => b.albedo(wi),
             Self::Dielectric(b) => b.albedo(wi),
             Self::ThinDielectric(b) => Some(b.albedo(wi)),

@@ -15,6 +15,7 @@
 //!
 //! The sum is reciprocal, and without loss at ρ = 1. E is the exact integral here, not the paper's polynomial.
 
+use super::albedo::Albedo;
 use super::contract::{BsdfSample, Lobe, Lobes, Side};
 use super::specimen::{Claims, Specimen};
 use crate::math::float::safe_sqrt;
@@ -96,10 +97,10 @@ impl OrenNayar {
         Lobes { reflection: !self.reflectance.is_zero(), transmission: false }
     }
 
-    /// Directional–hemispherical reflectance ρ E(μ) + ρ₊ (1 − E(μ)) for light that arrives at |cosθ| = `mu`: a closed form.
-    pub fn directional_albedo(&self, mu: f32) -> Sampled<Unitless> {
-        let lost = self.a() * self.roughness * loss(mu);
-        self.reflectance * (1.0 - lost) + self.multiple_reflectance() * lost
+    /// ρ E(μ) + ρ₊ (1 − E(μ)), a closed form.
+    pub fn albedo(&self, wi: LocalDir) -> Albedo {
+        let lost = self.a() * self.roughness * loss(wi.abs_cos_theta());
+        Albedo::reflecting(self.reflectance * (1.0 - lost) + self.multiple_reflectance() * lost)
     }
 
     /// What holds for it.
@@ -241,7 +242,7 @@ mod tests {
                 let b = OrenNayar { reflectance: Sampled::splat(rho), roughness };
                 for mu in [1.0, 0.8, 0.3, 0.05] {
                     let integral = by_quadrature(&b, at(mu, 0.4));
-                    let closed = f64::from(b.directional_albedo(mu)[0]);
+                    let closed = f64::from(b.albedo(at(mu, 0.0)).reflectance[0]);
                     // The kink of s/t leaves the midpoint rule 1e-4.
                     assert!((integral - closed).abs() < 4e-4, "{roughness} {rho} {mu}: {integral} {closed}");
                     assert!(rho < 1.0 || (closed - 1.0).abs() < 1e-6, "{roughness} {mu}: {closed}");
