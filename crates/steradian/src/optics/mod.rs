@@ -3,9 +3,11 @@
 //! Nothing here knows a scene, a texture or a path; randomness is an argument.
 
 pub mod absorption;
+pub mod complex;
 pub mod fresnel;
 pub mod microfacet;
 pub mod phase;
+pub mod real;
 pub mod refraction;
 
 pub use microfacet::TrowbridgeReitz;
