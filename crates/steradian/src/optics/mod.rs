@@ -4,11 +4,14 @@
 
 pub mod absorption;
 pub mod complex;
+pub mod dispersion;
+pub mod films;
 pub mod fresnel;
 pub mod microfacet;
 pub mod phase;
 pub mod real;
 pub mod refraction;
 
+pub use films::Film;
 pub use microfacet::TrowbridgeReitz;
 pub use phase::HenyeyGreenstein;
