@@ -28,3 +28,4 @@ pub mod film;
 pub mod integrator;
 // 6: execution
 pub mod render;
+pub mod lab;

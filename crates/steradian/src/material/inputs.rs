@@ -1,14 +1,16 @@
 //! Groups of parameters that several materials share, and their values at a point.
 
+use super::schema::{Arguments, Fault};
 use crate::bsdf::{Coat, Conductor, Dielectric, ExitWeights};
 use crate::math::{Footprint, SurfacePoint};
 use crate::optics::TrowbridgeReitz;
-use crate::spectrum::{Sampled, Spectrum, Wavelengths};
+use crate::spectrum::{LANES, Sampled, Spectrum, Wavelengths};
 use crate::texture::{FloatInput, SpectrumInput, TextureContext, Textures};
 use crate::units::Unitless;
 
 /// What parameters are evaluated with: textures, a place, and a path's wavelengths.
-pub(super) struct Lookup<'a> {
+#[derive(Debug)]
+pub struct Lookup<'a> {
     textures: &'a Textures,
     at: TextureContext<'a>,
     wavelengths: &'a mut Wavelengths,
@@ -24,21 +26,38 @@ impl<'a> Lookup<'a> {
         Self { textures, at: TextureContext { point, footprint }, wavelengths }
     }
 
-    pub(super) fn float(&self, input: &FloatInput) -> f32 {
+    /// A number.
+    pub fn float(&self, input: &FloatInput) -> f32 {
         self.textures.float_input(input, &self.at)
     }
 
-    pub(super) fn spectrum(&self, input: &SpectrumInput) -> Sampled<Unitless> {
+    /// A spectrum at the path's wavelengths.
+    pub fn spectrum(&self, input: &SpectrumInput) -> Sampled<Unitless> {
         self.textures.spectrum_input(input, &self.at, self.wavelengths)
     }
 
+    /// The path's wavelengths [nm].
+    pub fn lambda(&self) -> &[f32; LANES] {
+        self.wavelengths.lambda()
+    }
+
+    /// The place.
+    pub fn point(&self) -> &SurfacePoint {
+        self.at.point
+    }
+
+    /// Keeps the hero wavelength alone from here on: where directions depend on the wavelength.
+    pub fn terminate_companions(&mut self) {
+        self.wavelengths.terminate_companions();
+    }
+
     /// A reflectance, limited to what a surface can reflect.
-    pub(super) fn reflectance(&self, input: &SpectrumInput) -> Sampled<Unitless> {
+    pub fn reflectance(&self, input: &SpectrumInput) -> Sampled<Unitless> {
         self.spectrum(input).clamp(0.0, 1.0)
     }
 
     /// The index at the hero wavelength. Where it disperses, directions belong to the hero alone from here on.
-    pub(super) fn index(&mut self, eta: &Spectrum) -> f32 {
+    pub fn index(&mut self, eta: &Spectrum) -> f32 {
         let value = eta.constant_value().unwrap_or_else(|| {
             self.wavelengths.terminate_companions();
             eta.at(self.wavelengths.lambda()[0])
@@ -82,8 +101,17 @@ impl Roughness {
         scale: RoughnessScale::Perceptual,
     };
 
-    pub(super) fn is_textured(&self) -> bool {
+    /// Whether it varies over the surface.
+    pub fn is_textured(&self) -> bool {
         self.u.is_textured() || self.v.is_textured()
+    }
+
+    /// The value of the parameter named first for both tangents, unless the other two say more of either.
+    pub(super) fn from_arguments(arguments: &Arguments, [both, u, v]: [&str; 3]) -> Self {
+        let of = |name| arguments.float_opt(name).unwrap_or_else(|| arguments.float(both));
+        let remap = arguments.flag("remaproughness");
+        let scale = if remap { RoughnessScale::Perceptual } else { RoughnessScale::Alpha };
+        Self { u: of(u), v: of(v), scale }
     }
 
     /// Whether the surface is smooth wherever it is looked at.
@@ -92,7 +120,8 @@ impl Roughness {
         self.u == zero && self.v == zero
     }
 
-    pub(super) fn at(&self, lookup: &Lookup) -> TrowbridgeReitz {
+    /// Its value at a point.
+    pub fn at(&self, lookup: &Lookup) -> TrowbridgeReitz {
         let alpha = |input| {
             let value = lookup.float(input);
             match self.scale {
@@ -119,14 +148,33 @@ pub enum Metal {
 }
 
 impl Metal {
-    pub(super) fn is_textured(&self) -> bool {
+    /// A metal by its parameter "reflectance", or by the two named ones.
+    pub(super) fn from_arguments(arguments: &Arguments, [eta, k]: [&'static str; 2]) -> Result<Self, Fault> {
+        let has_index = arguments.given(eta) || arguments.given(k);
+        match arguments.spectrum_opt("reflectance") {
+            Some(_) if has_index => {
+                let message = format!("give \"reflectance\", or \"{eta}\" and \"{k}\", not both");
+                Err(Fault::new("reflectance", message))
+            }
+            Some(reflectance) => Ok(Self::Reflectance(reflectance)),
+            None if arguments.given(k) && !arguments.given(eta) => {
+                let message = format!("\"{k}\" without \"{eta}\": a metal has both");
+                Err(Fault::new(k, message))
+            }
+            None => Ok(Self::Index { eta: arguments.spectrum(eta), k: arguments.spectrum(k) }),
+        }
+    }
+
+    /// Whether it varies over the surface.
+    pub fn is_textured(&self) -> bool {
         match self {
             Self::Index { eta, k } => eta.is_textured() || k.is_textured(),
             Self::Reflectance(r) => r.is_textured(),
         }
     }
 
-    pub(super) fn at(&self, roughness: &Roughness, lookup: &Lookup) -> Conductor {
+    /// Its value at a point.
+    pub fn at(&self, roughness: &Roughness, lookup: &Lookup) -> Conductor {
         let (eta, k) = match self {
             Self::Index { eta, k } => (lookup.spectrum(eta), lookup.spectrum(k)),
             Self::Reflectance(r) => {
@@ -178,14 +226,35 @@ impl Default for CoatInput {
 }
 
 impl CoatInput {
-    pub(super) fn is_textured(&self) -> bool {
+    /// Whether its values are biased as pbrt-v4's are: a rough coat, weighed in the inconsistent way.
+    pub fn is_inconsistent(&self) -> bool {
+        self.weights == ExitWeights::Pbrt4 && !self.roughness.is_smooth()
+    }
+
+    pub(super) fn from_arguments(arguments: &Arguments, eta: &str, roughness: Roughness) -> Self {
+        let limit = |name| u16::try_from(arguments.count(name)).unwrap_or(u16::MAX);
+        Self {
+            eta: arguments.index(eta),
+            roughness,
+            thickness: arguments.float("thickness"),
+            albedo: arguments.spectrum("albedo"),
+            g: arguments.float("g"),
+            max_depth: limit("maxdepth"),
+            samples: limit("nsamples"),
+            weights: ExitWeights::Pbrt4,
+        }
+    }
+
+    /// Whether it varies over the surface.
+    pub fn is_textured(&self) -> bool {
         self.roughness.is_textured()
             || self.thickness.is_textured()
             || self.albedo.is_textured()
             || self.g.is_textured()
     }
 
-    pub(super) fn at(&self, lookup: &mut Lookup) -> Coat {
+    /// Its value at a point.
+    pub fn at(&self, lookup: &mut Lookup) -> Coat {
         Coat {
             interface: Dielectric { eta: lookup.index(&self.eta), roughness: self.roughness.at(lookup) },
             // Walks move between two different depths.

@@ -1,111 +1,128 @@
 //! Materials: parameters that may be textured, and the scattering function they make at a point.
+//!
+//! Each material declares its parameters ([`Declared`]); importers and the compiler follow the schema.
 
+pub mod coated;
+pub mod conductor;
+pub mod declared;
 mod detail;
+pub mod dielectric;
+pub mod diffuse;
 pub mod inputs;
+pub mod mix;
+pub mod schema;
 pub mod surface;
 
-pub use inputs::{CoatInput, Metal, Roughness, RoughnessScale};
+pub use coated::{CoatedConductorMaterial, CoatedDiffuseMaterial};
+pub use conductor::ConductorMaterial;
+pub use declared::{Declared, Role};
+pub use dielectric::{DielectricMaterial, ThinDielectricMaterial};
+pub use diffuse::{DiffuseMaterial, DiffuseTransmissionMaterial};
+pub use inputs::{CoatInput, Lookup, Metal, Roughness, RoughnessScale};
+pub use mix::{InterfaceMaterial, MixMaterial};
+pub use schema::{Arguments, Fault, MaterialId, Parameter, ParameterKind};
 pub use surface::{SurfaceBsdf, SurfaceSample};
 
-use crate::bsdf::{
-    Bsdf, Dielectric, Diffuse, DiffuseTransmission, ExitWeights, Layered, ThinDielectric, VarnishedDiffuse,
-};
+use crate::bsdf::Bsdf;
 use crate::image::Image;
 use crate::math::{Dir, Footprint, Shading, SurfacePoint, hash};
-use crate::spectrum::{Spectrum, Wavelengths};
-use crate::texture::{FloatInput, SpectrumInput, TextureContext, Textures};
-use inputs::Lookup;
+use crate::spectrum::Wavelengths;
+use crate::texture::{FloatInput, TextureContext, Textures};
 use std::sync::Arc;
-
-/// A material of a [`Materials`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct MaterialId(pub u32);
 
 /// A map of normals of a [`Materials`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct NormalMapId(pub u32);
 
-/// What a surface is made of.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Material {
+/// A class of materials, as importers see it.
+#[derive(Clone, Copy, Debug)]
+pub struct Class {
+    /// Its name in scene files.
+    pub name: &'static str,
+    /// The parameters that it takes.
+    pub parameters: &'static [Parameter],
+    /// What it is to the scene.
+    pub role: Role,
+    /// Makes a material from their values.
+    pub build: fn(&Arguments) -> Result<Material, Fault>,
+}
+
+/// The closed set: one line for each material.
+macro_rules! materials {
+    ($($(#[$doc:meta])* $name:ident($type:ty),)*) => {
+        /// What a surface is made of.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Material {
+            $($(#[$doc])* $name($type),)*
+        }
+
+        /// All classes of materials.
+        pub const CLASSES: &[Class] = &[$(Class {
+            name: <$type>::CLASS,
+            parameters: <$type>::PARAMETERS,
+            role: <$type>::ROLE,
+            build: |arguments| <$type>::build(arguments).map(Material::$name),
+        },)*];
+
+        impl Material {
+            /// Its class.
+            pub fn class(&self) -> &'static str {
+                match self {
+                    $(Self::$name(_) => <$type>::CLASS,)*
+                }
+            }
+
+            /// Whether a parameter varies over the surface; of a mix, its amount.
+            pub fn is_textured(&self) -> bool {
+                match self {
+                    $(Self::$name(m) => m.is_textured(),)*
+                }
+            }
+
+            /// The scattering function at a point; `None` for a mix and for a boundary of media.
+            fn scatterer<'a>(&'a self, lookup: &mut Lookup<'_>, seed: u64) -> Option<Bsdf<'a>> {
+                match self {
+                    $(Self::$name(m) => m.scatterer(lookup, seed),)*
+                }
+            }
+        }
+    };
+}
+
+materials! {
     /// Lambertian reflection.
-    Diffuse {
-        /// Reflectance, limited to [0, 1].
-        reflectance: SpectrumInput,
-    },
+    Diffuse(DiffuseMaterial),
     /// Lambertian reflection and transmission.
-    DiffuseTransmission {
-        /// Reflectance before scaling.
-        reflectance: SpectrumInput,
-        /// Transmittance before scaling.
-        transmittance: SpectrumInput,
-        /// Factor on both, which are then limited to [0, 1].
-        scale: f32,
-    },
+    DiffuseTransmission(DiffuseTransmissionMaterial),
     /// A metal.
-    Conductor {
-        /// Its optical constants.
-        metal: Metal,
-        /// Its roughness.
-        roughness: Roughness,
-    },
-    /// The interface to a transparent medium; a spectrum that varies makes it disperse.
-    Dielectric {
-        /// Index of the inside over the outside.
-        eta: Spectrum,
-        /// Roughness of the interface.
-        roughness: Roughness,
-    },
+    Conductor(ConductorMaterial),
+    /// The interface to a transparent medium.
+    Dielectric(DielectricMaterial),
     /// A pane without thickness.
-    ThinDielectric {
-        /// Index of the pane.
-        eta: Spectrum,
-    },
+    ThinDielectric(ThinDielectricMaterial),
     /// A dielectric coat over a Lambertian base.
-    CoatedDiffuse {
-        /// Reflectance of the base, limited to [0, 1].
-        reflectance: SpectrumInput,
-        /// The coat.
-        coat: CoatInput,
-    },
+    CoatedDiffuse(CoatedDiffuseMaterial),
     /// A dielectric coat over a metal.
-    CoatedConductor {
-        /// The metal's optical constants, in air.
-        metal: Metal,
-        /// The metal's roughness.
-        roughness: Roughness,
-        /// The coat.
-        coat: CoatInput,
-    },
-    /// One of two materials, chosen anew at each point and direction.
-    Mix {
-        /// The two.
-        materials: [MaterialId; 2],
-        /// Share of the second.
-        amount: FloatInput,
-    },
-    /// The boundary of a medium: light passes straight.
-    Interface,
+    CoatedConductor(CoatedConductorMaterial),
+    /// One of two materials.
+    Mix(MixMaterial),
+    /// The boundary of a medium.
+    Interface(InterfaceMaterial),
 }
 
 impl Material {
-    /// Whether a parameter varies over the surface; of a mix, its amount.
-    fn is_textured(&self) -> bool {
+    /// The materials that it chooses from; none for one that scatters itself.
+    pub fn parts(&self) -> &[MaterialId] {
         match self {
-            Self::Diffuse { reflectance } => reflectance.is_textured(),
-            Self::DiffuseTransmission { reflectance, transmittance, .. } => {
-                reflectance.is_textured() || transmittance.is_textured()
-            }
-            Self::Conductor { metal, roughness } => metal.is_textured() || roughness.is_textured(),
-            Self::Dielectric { roughness, .. } => roughness.is_textured(),
-            Self::CoatedDiffuse { reflectance, coat } => reflectance.is_textured() || coat.is_textured(),
-            Self::CoatedConductor { metal, roughness, coat } => {
-                metal.is_textured() || roughness.is_textured() || coat.is_textured()
-            }
-            Self::Mix { amount, .. } => amount.is_textured(),
-            Self::ThinDielectric { .. } | Self::Interface => false,
+            Self::Mix(mix) => &mix.materials,
+            _ => &[],
         }
     }
+}
+
+/// The class of that name.
+pub fn class(name: &str) -> Option<&'static Class> {
+    CLASSES.iter().find(|c| c.name == name)
 }
 
 /// Relief that is shaded but not built.
@@ -146,6 +163,7 @@ struct Entry {
     material: Material,
     detail: Detail,
     needs_footprint: bool,
+    label: String,
 }
 
 impl Materials {
@@ -173,9 +191,7 @@ impl Materials {
     /// # Errors
     /// When it refers to a material or map that was not added before it, so that mixes cannot form cycles.
     pub fn push(&mut self, material: Material, detail: Detail) -> Result<MaterialId, MaterialError> {
-        if let Material::Mix { materials, .. } = &material
-            && materials.iter().any(|id| id.0 as usize >= self.entries.len())
-        {
+        if material.parts().iter().any(|id| id.0 as usize >= self.entries.len()) {
             return Err(MaterialError::UnknownMaterial);
         }
         if let Detail::Normals(id) = detail
@@ -184,10 +200,9 @@ impl Materials {
             return Err(MaterialError::UnknownNormalMap);
         }
         let of = |id: MaterialId| self.needs_footprint(id);
-        let needs_footprint = material.is_textured()
-            || detail != Detail::Flat
-            || matches!(&material, Material::Mix { materials, .. } if materials.iter().any(|&id| of(id)));
-        self.entries.push(Entry { material, detail, needs_footprint });
+        let needs_footprint =
+            material.is_textured() || detail != Detail::Flat || material.parts().iter().any(|&id| of(id));
+        self.entries.push(Entry { material, detail, needs_footprint, label: String::new() });
         Ok(MaterialId(self.entries.len() as u32 - 1))
     }
 
@@ -196,20 +211,50 @@ impl Materials {
         &self.entries[id.0 as usize].material
     }
 
+    /// All ids, in the order of adding.
+    pub fn ids(&self) -> impl Iterator<Item = MaterialId> + use<> {
+        (0..self.entries.len() as u32).map(MaterialId)
+    }
+
+    /// What people call the material; empty until it is said.
+    pub fn label(&self, id: MaterialId) -> &str {
+        &self.entries[id.0 as usize].label
+    }
+
+    /// Says what people call the material.
+    pub fn set_label(&mut self, id: MaterialId, label: impl Into<String>) {
+        self.entries[id.0 as usize].label = label.into();
+    }
+
+    /// The scattering function of material `id` alone, without relief and in the frame of the shading normal; `None` for
+    /// materials that are a mix or a mere boundary of media.
+    ///
+    /// Drops the companions of `w` where directions depend on the wavelength. `seed` starts random walks.
+    pub fn scatterer<'a>(
+        &'a self,
+        id: MaterialId,
+        point: &SurfacePoint,
+        footprint: &Footprint,
+        textures: &Textures,
+        w: &mut Wavelengths,
+        seed: u64,
+    ) -> Option<Bsdf<'a>> {
+        self.get(id).scatterer(&mut Lookup::new(textures, point, footprint, w), seed)
+    }
+
     /// Whether some coat is rough and weighs its walks in pbrt-v4's inconsistent way: a bias that belongs into the
     /// picture's metadata.
     pub fn has_inconsistent_coats(&self) -> bool {
         self.entries.iter().any(|e| match &e.material {
-            Material::CoatedDiffuse { coat, .. } | Material::CoatedConductor { coat, .. } => {
-                coat.weights == ExitWeights::Pbrt4 && !coat.roughness.is_smooth()
-            }
+            Material::CoatedDiffuse(m) => m.coat.is_inconsistent(),
+            Material::CoatedConductor(m) => m.coat.is_inconsistent(),
             _ => false,
         })
     }
 
     /// Whether light passes the material straight, wherever it meets it.
     pub fn is_interface(&self, id: MaterialId) -> bool {
-        matches!(self.get(id), Material::Interface)
+        matches!(self.get(id), Material::Interface(_))
     }
 
     /// Whether the material looks at how fast its texture coordinates change, at any point.
@@ -236,14 +281,14 @@ impl Materials {
         seed: u64,
     ) -> Option<SurfaceBsdf<'a>> {
         let mut entry = &self.entries[id.0 as usize];
-        if let Material::Mix { .. } = entry.material {
+        if let Material::Mix(_) = entry.material {
             entry = self.unmixed(id, &TextureContext { point, footprint }, wo, textures);
         }
         let relief =
             self.relief(entry, point, footprint, textures).map(|shading| SurfacePoint { shading, ..*point });
         let point = relief.as_ref().unwrap_or(point);
         let mut lookup = Lookup::new(textures, point, footprint, w);
-        let bsdf = scatterer(&entry.material, &mut lookup, seed)?;
+        let bsdf = entry.material.scatterer(&mut lookup, seed)?;
         Some(SurfaceBsdf::new(bsdf, &point.shading))
     }
 
@@ -253,7 +298,7 @@ impl Materials {
     #[inline(never)]
     fn unmixed(&self, id: MaterialId, at: &TextureContext<'_>, wo: Dir, textures: &Textures) -> &Entry {
         let mut entry = &self.entries[id.0 as usize];
-        while let Material::Mix { materials: [first, second], amount } = &entry.material {
+        while let Material::Mix(MixMaterial { materials: [first, second], amount }) = &entry.material {
             let amount = textures.float_input(amount, at);
             let p = at.point.p.p;
             let key = hash::hash_floats(&[p.x, p.y, p.z, wo.x, wo.y, wo.z]);
@@ -280,41 +325,6 @@ impl Materials {
             Detail::Normals(id) => detail::normal_map(point, &self.normal_maps[id.0 as usize]),
         }
     }
-}
-
-/// The scattering function of a material that is no mix; `None` for a boundary of media.
-fn scatterer<'a>(material: &'a Material, lookup: &mut Lookup, seed: u64) -> Option<Bsdf<'a>> {
-    Some(match material {
-        Material::Diffuse { reflectance } => {
-            Bsdf::Diffuse(Diffuse { reflectance: lookup.reflectance(reflectance) })
-        }
-        Material::DiffuseTransmission { reflectance, transmittance, scale } => {
-            let scaled = |input| (lookup.spectrum(input) * *scale).clamp(0.0, 1.0);
-            Bsdf::DiffuseTransmission(DiffuseTransmission {
-                reflectance: scaled(reflectance),
-                transmittance: scaled(transmittance),
-            })
-        }
-        Material::Conductor { metal, roughness } => Bsdf::Conductor(metal.at(roughness, lookup)),
-        Material::Dielectric { eta, roughness } => {
-            Bsdf::Dielectric(Dielectric { eta: lookup.index(eta), roughness: roughness.at(lookup) })
-        }
-        Material::ThinDielectric { eta } => Bsdf::ThinDielectric(ThinDielectric { eta: lookup.index(eta) }),
-        Material::CoatedDiffuse { reflectance, coat } => {
-            let base = Diffuse { reflectance: lookup.reflectance(reflectance) };
-            let layers = Layered { coat: coat.at(lookup), base, seed };
-            VarnishedDiffuse::new(layers).map_or(Bsdf::CoatedDiffuse(layers), Bsdf::VarnishedDiffuse)
-        }
-        Material::CoatedConductor { metal, roughness, coat } => {
-            let coat = coat.at(lookup);
-            let mut base = metal.at(roughness, lookup);
-            // The metal meets the coat, not air.
-            base.eta = base.eta / coat.interface.eta;
-            base.k = base.k / coat.interface.eta;
-            Bsdf::CoatedConductor(Layered { coat, base, seed })
-        }
-        Material::Mix { .. } | Material::Interface => return None,
-    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 use super::*;
 use crate::math::{BoundedPoint, Normal, Point, Vec2, Vec3};
-use crate::spectrum::Sampled;
 use crate::spectrum::named::named;
+use crate::spectrum::{Sampled, Spectrum};
+use crate::texture::SpectrumInput;
 
 fn plane(x: f32) -> SurfacePoint {
     let n = Normal::Z;
@@ -35,9 +36,13 @@ fn shade<'a>(
 #[test]
 fn mix_shows_the_second_material_in_the_given_share() {
     let mut materials = Materials::new();
-    let first = materials.push(Material::Diffuse { reflectance: constant(0.2) }, Detail::Flat).unwrap();
-    let second = materials.push(Material::Interface, Detail::Flat).unwrap();
-    let mix = |amount| Material::Mix { materials: [first, second], amount: FloatInput::Constant(amount) };
+    let first = materials
+        .push(Material::Diffuse(DiffuseMaterial { reflectance: constant(0.2) }), Detail::Flat)
+        .unwrap();
+    let second = materials.push(Material::Interface(InterfaceMaterial), Detail::Flat).unwrap();
+    let mix = |amount| {
+        Material::Mix(MixMaterial { materials: [first, second], amount: FloatInput::Constant(amount) })
+    };
     let n = 20_000;
     for share in [0.0_f32, 0.3, 1.0] {
         let id = materials.push(mix(share), Detail::Flat).unwrap();
@@ -56,9 +61,9 @@ fn mix_shows_the_second_material_in_the_given_share() {
 fn mix_may_refer_to_earlier_materials_only() {
     let mut materials = Materials::new();
     let own = MaterialId(0);
-    let mix = Material::Mix { materials: [own, own], amount: FloatInput::Constant(0.5) };
+    let mix = Material::Mix(MixMaterial { materials: [own, own], amount: FloatInput::Constant(0.5) });
     assert_eq!(materials.push(mix, Detail::Flat), Err(MaterialError::UnknownMaterial));
-    let flat = materials.push(Material::Interface, Detail::Normals(NormalMapId(0)));
+    let flat = materials.push(Material::Interface(InterfaceMaterial), Detail::Normals(NormalMapId(0)));
     assert_eq!(flat, Err(MaterialError::UnknownNormalMap));
 }
 
@@ -66,7 +71,8 @@ fn mix_may_refer_to_earlier_materials_only() {
 fn only_dispersive_glass_drops_the_companions() {
     let mut materials = Materials::new();
     let mut glass = |eta| {
-        materials.push(Material::Dielectric { eta, roughness: Roughness::SMOOTH }, Detail::Flat).unwrap()
+        let glass = DielectricMaterial { eta, roughness: Roughness::SMOOTH };
+        materials.push(Material::Dielectric(glass), Detail::Flat).unwrap()
     };
     let (plain, flint) = (glass(Spectrum::Constant(1.5)), glass(named("glass-F11").unwrap()));
     let mut w = Wavelengths::sample_visible(0.3);
@@ -83,7 +89,7 @@ fn only_dispersive_glass_drops_the_companions() {
 fn reflectance_of_a_metal_is_met_at_normal_incidence() {
     let mut materials = Materials::new();
     let metal = Metal::Reflectance(constant(0.7));
-    let material = Material::Conductor { metal, roughness: Roughness::SMOOTH };
+    let material = Material::Conductor(ConductorMaterial { metal, roughness: Roughness::SMOOTH });
     let id = materials.push(material, Detail::Flat).unwrap();
     let surface = shade(&materials, id, 0.0, &mut Wavelengths::sample_visible(0.3)).unwrap();
     let s = surface.sample(Dir::Z, 0.5, Vec2::splat(0.5), crate::bsdf::Mode::Radiance).unwrap();
@@ -94,11 +100,11 @@ fn reflectance_of_a_metal_is_met_at_normal_incidence() {
 fn coated_metal_has_its_index_relative_to_the_coat() {
     let mut materials = Materials::new();
     let metal = Metal::Index { eta: constant(0.3), k: constant(3.0) };
-    let material = Material::CoatedConductor {
+    let material = Material::CoatedConductor(CoatedConductorMaterial {
         metal,
         roughness: Roughness::SMOOTH,
         coat: CoatInput { thickness: FloatInput::Constant(0.0), max_depth: 100, ..CoatInput::default() },
-    };
+    });
     let id = materials.push(material, Detail::Flat).unwrap();
     let mut total = Sampled::ZERO;
     let n = 40_000;

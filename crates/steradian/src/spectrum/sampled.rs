@@ -57,6 +57,11 @@ impl Wavelengths {
         Self { lambda, pdf: [1.0 / range; LANES], terminated: false }
     }
 
+    /// The given wavelengths [nm], for measurements; their densities mean nothing.
+    pub fn exactly(lambda: [f32; LANES]) -> Self {
+        Self { lambda, pdf: [1.0; LANES], terminated: false }
+    }
+
     /// The wavelengths [nm]; the first is the hero.
     pub fn lambda(&self) -> &[f32; LANES] {
         &self.lambda

@@ -3,14 +3,12 @@
 use super::pictures::Reading;
 use super::spectra::Meaning;
 use super::textures::TextureCompiler;
+use crate::material::schema::{Argument, File, Quantity, Value};
 use crate::material::{
-    CoatInput, Detail, Material, MaterialId, Materials, Metal, NormalMapId, Roughness, RoughnessScale,
+    Arguments, Detail, MaterialId, Materials, NormalMapId, Parameter, ParameterKind, Role,
 };
-use crate::scene::desc::{
-    ConductorOptics, FileRef, Id, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc, SpectrumParam,
-};
-use crate::spectrum::Spectrum;
-use crate::texture::{FloatInput, SpectrumInput};
+use crate::scene::desc::{ArgumentValue, FileRef, Id, MaterialDesc};
+use crate::texture::FloatInput;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -31,7 +29,7 @@ impl CompiledMaterials {
 pub(super) fn compile(descs: &[MaterialDesc], textures: &mut TextureCompiler<'_>) -> CompiledMaterials {
     let mut compiler =
         MaterialCompiler { textures, materials: Materials::new(), normal_maps: BTreeMap::new() };
-    for mix in descs.iter().filter(|d| mixes_interface(&d.kind, descs)) {
+    for mix in descs.iter().filter(|d| mixes_interface(d, descs)) {
         let message =
             "an interface inside a mix is not supported: it would let rays pass, but not the light of lamps";
         compiler.textures.diagnostics.error(mix.span, message);
@@ -42,9 +40,9 @@ pub(super) fn compile(descs: &[MaterialDesc], textures: &mut TextureCompiler<'_>
     let mut waiting: Vec<usize> = (0..descs.len()).collect();
     while !waiting.is_empty() {
         let before = waiting.len();
-        waiting.retain(|&i| match parts(&descs[i].kind, &ids) {
+        waiting.retain(|&i| match parts(&descs[i], &ids) {
             Some(parts) => {
-                ids[i] = Some(compiler.add(&descs[i], parts));
+                ids[i] = Some(compiler.add(i, &descs[i], &parts));
                 false
             }
             None => true,
@@ -58,22 +56,14 @@ pub(super) fn compile(descs: &[MaterialDesc], textures: &mut TextureCompiler<'_>
 }
 
 /// Whether a material chooses between an interface and something else.
-fn mixes_interface(kind: &MaterialKind, descs: &[MaterialDesc]) -> bool {
-    let is_interface = |id: &Id<MaterialDesc>| {
-        descs.get(id.index()).is_some_and(|d| matches!(d.kind, MaterialKind::Interface))
-    };
-    matches!(kind, MaterialKind::Mix { materials, .. } if materials.iter().any(is_interface))
+fn mixes_interface(desc: &MaterialDesc, descs: &[MaterialDesc]) -> bool {
+    desc.class.role == Role::Mix
+        && desc.parts().any(|id| descs.get(id.index()).is_some_and(MaterialDesc::is_interface))
 }
 
-/// The compiled parts of a mix (any two for other materials); `None` while one is missing.
-fn parts(kind: &MaterialKind, ids: &[Option<MaterialId>]) -> Option<[MaterialId; 2]> {
-    match kind {
-        MaterialKind::Mix { materials: [a, b], .. } => {
-            let part = |id: &Id<MaterialDesc>| ids.get(id.index()).copied().flatten();
-            Some([part(a)?, part(b)?])
-        }
-        _ => Some([MaterialId(0); 2]),
-    }
+/// The compiled materials that a material refers to; `None` while one is missing.
+fn parts(desc: &MaterialDesc, ids: &[Option<MaterialId>]) -> Option<Vec<MaterialId>> {
+    desc.parts().map(|id| ids.get(id.index()).copied().flatten()).collect()
 }
 
 struct MaterialCompiler<'a, 'b> {
@@ -83,54 +73,70 @@ struct MaterialCompiler<'a, 'b> {
 }
 
 impl MaterialCompiler<'_, '_> {
-    fn add(&mut self, desc: &MaterialDesc, parts: [MaterialId; 2]) -> MaterialId {
-        let material = self.material(&desc.kind, parts);
+    /// Adds a material; one that cannot be made is reported, and the first material stands in for it.
+    fn add(&mut self, index: usize, desc: &MaterialDesc, parts: &[MaterialId]) -> MaterialId {
         let detail = self.detail(desc);
-        self.materials.push(material, detail).unwrap_or_else(|e| {
-            self.textures.diagnostics.error(desc.span, e.to_string());
-            MaterialId(0)
-        })
+        let Some(arguments) = self.arguments(desc, parts) else { return MaterialId(0) };
+        let built = (desc.class.build)(&arguments).map_err(|fault| {
+            let span = desc.argument(fault.parameter).map_or(desc.span, |a| a.span);
+            (span, fault.message)
+        });
+        let added = built.and_then(|material| {
+            self.materials.push(material, detail).map_err(|e| (desc.span, e.to_string()))
+        });
+        match added {
+            Ok(id) => {
+                let label = desc.name.clone().unwrap_or_else(|| format!("{}#{index}", desc.class.name));
+                self.materials.set_label(id, label);
+                id
+            }
+            Err((span, message)) => {
+                self.textures.diagnostics.error(span, message);
+                MaterialId(0)
+            }
+        }
     }
 
-    fn material(&mut self, kind: &MaterialKind, parts: [MaterialId; 2]) -> Material {
-        match kind {
-            MaterialKind::Diffuse { reflectance } => {
-                Material::Diffuse { reflectance: self.albedo(reflectance) }
-            }
-            MaterialKind::DiffuseTransmission { reflectance, transmittance, scale } => {
-                Material::DiffuseTransmission {
-                    reflectance: self.albedo(reflectance),
-                    transmittance: self.albedo(transmittance),
-                    scale: *scale,
-                }
-            }
-            MaterialKind::Conductor { optics, roughness } => {
-                Material::Conductor { metal: self.metal(optics), roughness: self.roughness(roughness) }
-            }
-            MaterialKind::Dielectric { eta, roughness } => {
-                Material::Dielectric { eta: self.index(eta), roughness: self.roughness(roughness) }
-            }
-            MaterialKind::ThinDielectric { eta } => Material::ThinDielectric { eta: self.index(eta) },
-            MaterialKind::CoatedDiffuse { reflectance, roughness, eta, layer } => Material::CoatedDiffuse {
-                reflectance: self.albedo(reflectance),
-                coat: self.coat(eta, roughness, layer),
-            },
-            MaterialKind::CoatedConductor {
-                interface_roughness,
-                interface_eta,
-                optics,
-                conductor_roughness,
-                layer,
-            } => Material::CoatedConductor {
-                metal: self.metal(optics),
-                roughness: self.roughness(conductor_roughness),
-                coat: self.coat(interface_eta, interface_roughness, layer),
-            },
-            MaterialKind::Mix { amount, .. } => {
-                Material::Mix { materials: parts, amount: self.textures.float(amount) }
-            }
-            MaterialKind::Interface => Material::Interface,
+    /// The values of all parameters; `None` when a file cannot be read.
+    fn arguments(&mut self, desc: &MaterialDesc, parts: &[MaterialId]) -> Option<Arguments> {
+        let mut values = Vec::with_capacity(desc.arguments.len());
+        for (parameter, a) in desc.class.parameters.iter().zip(&desc.arguments) {
+            let value = self.value(parameter, &a.value, parts)?;
+            values.push(Argument { name: a.name, value, given: a.given });
         }
+        Some(Arguments::new(values))
+    }
+
+    fn value(&mut self, parameter: &Parameter, value: &ArgumentValue, parts: &[MaterialId]) -> Option<Value> {
+        let textures = &mut *self.textures;
+        Some(match value {
+            ArgumentValue::Spectrum(v) => {
+                let meaning = match parameter.kind {
+                    ParameterKind::Spectrum { quantity: Quantity::Fraction, .. } => Meaning::Albedo,
+                    _ => Meaning::Unbounded,
+                };
+                Value::Spectrum(v.as_ref().map(|v| textures.spectrum(v, meaning)))
+            }
+            ArgumentValue::Index(v) => Value::Index(
+                v.as_ref().map(|v| textures.spectra.compile(v, Meaning::Unbounded, textures.diagnostics)),
+            ),
+            ArgumentValue::Float(v) => Value::Float(v.as_ref().map(|v| textures.float(v))),
+            ArgumentValue::Number(v) => Value::Number(*v),
+            ArgumentValue::Numbers(v) => Value::Numbers(v.clone()),
+            ArgumentValue::Spectra(v) => {
+                let compile = |v| textures.spectra.compile(v, Meaning::Unbounded, textures.diagnostics);
+                Value::Spectra(v.iter().map(compile).collect())
+            }
+            ArgumentValue::Flag(v) => Value::Flag(*v),
+            ArgumentValue::Count(v) => Value::Count(*v),
+            ArgumentValue::Choice(v) => Value::Choice(v),
+            ArgumentValue::File(None) => Value::File(None),
+            ArgumentValue::File(Some(file)) => {
+                Value::File(Some(File { path: file.path.clone(), bytes: textures.file(file)? }))
+            }
+            // A class has one such parameter at most.
+            ArgumentValue::Materials(_) => Value::Materials(parts.to_vec()),
+        })
     }
 
     fn detail(&mut self, desc: &MaterialDesc) -> Detail {
@@ -159,47 +165,6 @@ impl MaterialCompiler<'_, '_> {
                 self.textures.diagnostics.error(file.span, message);
                 None
             }
-        }
-    }
-
-    fn albedo(&mut self, param: &SpectrumParam) -> SpectrumInput {
-        self.textures.spectrum(param, Meaning::Albedo)
-    }
-
-    /// An index of refraction. The importer admits no texture here.
-    fn index(&mut self, param: &SpectrumParam) -> Spectrum {
-        match self.textures.spectrum(param, Meaning::Unbounded) {
-            SpectrumInput::Constant(s) => s,
-            SpectrumInput::Texture(_) => Spectrum::Constant(1.0),
-        }
-    }
-
-    fn metal(&mut self, optics: &ConductorOptics) -> Metal {
-        match optics {
-            ConductorOptics::Index { eta, k } => Metal::Index {
-                eta: self.textures.spectrum(eta, Meaning::Unbounded),
-                k: self.textures.spectrum(k, Meaning::Unbounded),
-            },
-            ConductorOptics::Reflectance(r) => Metal::Reflectance(self.albedo(r)),
-        }
-    }
-
-    fn roughness(&mut self, desc: &RoughnessDesc) -> Roughness {
-        let scale = if desc.remap { RoughnessScale::Perceptual } else { RoughnessScale::Alpha };
-        Roughness { u: self.textures.float(&desc.u), v: self.textures.float(&desc.v), scale }
-    }
-
-    fn coat(&mut self, eta: &SpectrumParam, roughness: &RoughnessDesc, layer: &LayerDesc) -> CoatInput {
-        let limit = |n: u32| u16::try_from(n).unwrap_or(u16::MAX);
-        CoatInput {
-            eta: self.index(eta),
-            roughness: self.roughness(roughness),
-            thickness: self.textures.float(&layer.thickness),
-            albedo: self.albedo(&layer.albedo),
-            g: self.textures.float(&layer.g),
-            max_depth: limit(layer.max_depth),
-            samples: limit(layer.n_samples),
-            ..CoatInput::default()
         }
     }
 }

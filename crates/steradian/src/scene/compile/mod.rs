@@ -14,13 +14,14 @@ mod textures;
 mod view;
 
 use super::compiled::Scene;
-use super::desc::{MaterialKind, SceneDesc};
+use super::desc::SceneDesc;
 use super::diagnostic::Diagnostics;
 use super::files::FileSystem;
 use super::job::{Jitter, RenderJob, Sampling};
 use crate::accel::Accel;
 use crate::color::{ColorSpace, UpsamplingTables};
 use crate::light::{Light, LightId, LightSampler};
+use crate::material::Role;
 use integrator::CausticRisk;
 use lights::LightCompiler;
 use shapes::{Geometry, ShapeCompiler, ShapeSet};
@@ -73,7 +74,7 @@ pub fn compile_with_tables(
     let TextureCompiler { textures, spectra: _, diagnostics, .. } = textures;
     let risk = CausticRisk {
         delta_lights: lights.iter().any(Light::is_delta),
-        specular_surfaces: desc.materials.iter().any(|m| scatters_discretely(&m.kind)),
+        specular_surfaces: desc.materials.iter().any(|m| m.class.role == Role::Specular),
     };
     let path = integrator::choose(&desc.integrator, desc.span, risk, diagnostics);
     let selection = integrator::selection(&desc.integrator, diagnostics);
@@ -124,21 +125,6 @@ pub fn compile_with_tables(
 /// The sampler's own seed wins over that of the options.
 fn seed(desc: &SceneDesc) -> u64 {
     u64::from(desc.sampler.seed.unwrap_or(desc.options.seed).cast_unsigned())
-}
-
-/// Whether a material may scatter into single directions, which no light sample can meet.
-fn scatters_discretely(kind: &MaterialKind) -> bool {
-    match kind {
-        MaterialKind::Conductor { .. }
-        | MaterialKind::Dielectric { .. }
-        | MaterialKind::ThinDielectric { .. } => true,
-        MaterialKind::Diffuse { .. }
-        | MaterialKind::DiffuseTransmission { .. }
-        | MaterialKind::CoatedDiffuse { .. }
-        | MaterialKind::CoatedConductor { .. }
-        | MaterialKind::Mix { .. }
-        | MaterialKind::Interface => false,
-    }
 }
 
 #[cfg(test)]

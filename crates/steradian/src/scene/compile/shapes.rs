@@ -7,9 +7,7 @@ use super::view::rebase;
 use crate::accel::{AccelError, Coverage, Instance, Layout, ObjectId};
 use crate::math::{AnimatedTransform, Transform};
 use crate::scene::compiled::ShapeAttributes;
-use crate::scene::desc::{
-    AreaLightDesc, FileRef, Id, MaterialDesc, MaterialKind, SceneDesc, ShapeDesc, ShapeKind,
-};
+use crate::scene::desc::{AreaLightDesc, FileRef, Id, MaterialDesc, SceneDesc, ShapeDesc, ShapeKind};
 use crate::scene::diagnostic::Diagnostics;
 use crate::scene::files::FileSystem;
 use crate::scene::source::Span;
@@ -135,10 +133,8 @@ impl ShapeCompiler<'_, '_> {
     /// Adds the shapes that one statement makes (a PLY file may hold triangles and patches) and returns their ids.
     fn add(&mut self, desc: ShapeDesc, render_from_object: &Transform) -> Vec<ShapeId> {
         let span = desc.span;
-        let is_interface = self
-            .material_descs
-            .get(desc.material.index())
-            .is_some_and(|m| matches!(m.kind, MaterialKind::Interface));
+        let is_interface =
+            self.material_descs.get(desc.material.index()).is_some_and(MaterialDesc::is_interface);
         if is_interface && desc.area_light.is_none() {
             // Without media on its sides a mere boundary does nothing.
             return Vec::new();

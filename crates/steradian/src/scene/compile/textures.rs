@@ -10,7 +10,7 @@ use crate::scene::desc::{
     NoiseDesc, SceneDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind, TextureId, WrapMode,
 };
 use crate::scene::diagnostic::Diagnostics;
-use crate::scene::files::FileSystem;
+use crate::scene::files::{FileSystem, reason};
 use crate::scene::source::Span;
 use crate::spectrum::Spectrum;
 use crate::texture::{
@@ -93,6 +93,17 @@ impl<'a> TextureCompiler<'a> {
                 .define_spectrum(*id, meaning)
                 .unwrap_or(SpectrumInput::Constant(Spectrum::Constant(FAILED))),
         }
+    }
+
+    /// A file's bytes.
+    pub(super) fn file(&mut self, file: &FileRef) -> Option<Vec<u8>> {
+        let read = self.files.read(&file.path);
+        read.map(|bytes| bytes.to_vec())
+            .map_err(|e| {
+                let message = format!("cannot read {}: {}", file.path.display(), reason(&e));
+                self.diagnostics.error(file.span, message);
+            })
+            .ok()
     }
 
     /// A picture of the arena.

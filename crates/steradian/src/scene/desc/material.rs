@@ -2,7 +2,8 @@
 
 use super::id::Id;
 use super::texture::{FloatParam, SpectrumParam};
-use super::value::FileRef;
+use super::value::{FileRef, SpectrumDesc};
+use crate::material::{Class, Role};
 use crate::scene::source::Span;
 
 /// A material. Named ones keep their name for messages and `info`.
@@ -11,7 +12,9 @@ pub struct MaterialDesc {
     /// Name in the scene; `None` for materials stated in place.
     pub name: Option<String>,
     /// What it is.
-    pub kind: MaterialKind,
+    pub class: &'static Class,
+    /// Values of the parameters of its class, in their order.
+    pub arguments: Vec<ArgumentDesc>,
     /// Bump map: height [scene units] along the normal.
     pub displacement: Option<FloatParam>,
     /// Normal map.
@@ -20,113 +23,55 @@ pub struct MaterialDesc {
     pub span: Span,
 }
 
-/// The kinds of material with their parameters; defaults in parentheses.
+/// The value of one parameter.
 #[derive(Clone, Debug)]
-pub enum MaterialKind {
-    /// Lambertian reflection.
-    Diffuse {
-        /// Albedo (0.5).
-        reflectance: SpectrumParam,
-    },
-    /// Lambertian reflection and transmission.
-    DiffuseTransmission {
-        /// Reflected fraction (0.25).
-        reflectance: SpectrumParam,
-        /// Transmitted fraction (0.25).
-        transmittance: SpectrumParam,
-        /// Factor on both (1).
-        scale: f32,
-    },
-    /// Metal.
-    Conductor {
-        /// Optical constants (copper).
-        optics: ConductorOptics,
-        /// Roughness (0).
-        roughness: RoughnessDesc,
-    },
-    /// Boundary of a transparent solid.
-    Dielectric {
-        /// Relative index of refraction (1.5); spectrally varying means dispersion. Never a texture.
-        eta: SpectrumParam,
-        /// Roughness (0).
-        roughness: RoughnessDesc,
-    },
-    /// Thin transparent sheet.
-    ThinDielectric {
-        /// Index of refraction (1.5). Never a texture.
-        eta: SpectrumParam,
-    },
-    /// Dielectric coating over a diffuse base.
-    CoatedDiffuse {
-        /// Albedo of the base (0.5).
-        reflectance: SpectrumParam,
-        /// Roughness of the coating (0).
-        roughness: RoughnessDesc,
-        /// Index of refraction of the coating (1.5). Never a texture.
-        eta: SpectrumParam,
-        /// The coating's inside.
-        layer: LayerDesc,
-    },
-    /// Dielectric coating over metal.
-    CoatedConductor {
-        /// Roughness of the coating (0); its remapping holds for the metal too.
-        interface_roughness: RoughnessDesc,
-        /// Index of refraction of the coating (1.5). Never a texture.
-        interface_eta: SpectrumParam,
-        /// Optical constants of the metal (copper).
-        optics: ConductorOptics,
-        /// Roughness of the metal (0).
-        conductor_roughness: RoughnessDesc,
-        /// The coating's inside.
-        layer: LayerDesc,
-    },
-    /// One of two materials, chosen by a fixed pseudo-random rule at each point.
-    Mix {
-        /// The materials; no mix contains itself.
-        materials: [Id<MaterialDesc>; 2],
-        /// Fraction of the second (0.5).
-        amount: FloatParam,
-    },
-    /// No scattering: a mere boundary of media.
-    Interface,
+pub struct ArgumentDesc {
+    /// The parameter's name.
+    pub name: &'static str,
+    /// Its value.
+    pub value: ArgumentValue,
+    /// Whether the scene states it; it is a default otherwise.
+    pub given: bool,
+    /// The place of the parameter, or of the class when it is a default.
+    pub span: Span,
 }
 
-/// Optical constants of a metal.
-#[derive(Clone, Debug)]
-pub enum ConductorOptics {
-    /// Complex index of refraction η − ik.
-    Index {
-        /// Real part.
-        eta: SpectrumParam,
-        /// Imaginary part.
-        k: SpectrumParam,
-    },
-    /// Reflectance at normal incidence, from which an index is derived.
-    Reflectance(SpectrumParam),
+/// A value as the scene states it, by the kind of parameter; `None` where it is absent and has no default.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "each states a value for the parameter kind of the same name")]
+pub enum ArgumentValue {
+    Spectrum(Option<SpectrumParam>),
+    Index(Option<SpectrumDesc>),
+    Float(Option<FloatParam>),
+    Number(Option<f32>),
+    Numbers(Vec<f32>),
+    Spectra(Vec<SpectrumDesc>),
+    Flag(bool),
+    Count(u32),
+    Choice(&'static str),
+    File(Option<FileRef>),
+    Materials(Vec<Id<MaterialDesc>>),
 }
 
-/// Microfacet roughness along both parameter directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoughnessDesc {
-    /// Along u.
-    pub u: FloatParam,
-    /// Along v.
-    pub v: FloatParam,
-    /// Whether the values are mapped to α = √roughness; they are α otherwise (true).
-    pub remap: bool,
-}
+impl MaterialDesc {
+    /// The value of a parameter of its class.
+    pub fn argument(&self, name: &str) -> Option<&ArgumentDesc> {
+        self.arguments.iter().find(|a| a.name == name)
+    }
 
-/// The inside of a coating and the length of random walks in it.
-#[derive(Clone, Debug)]
-pub struct LayerDesc {
-    /// Thickness [scene units] (0.01).
-    pub thickness: FloatParam,
-    /// Henyey–Greenstein asymmetry of the filling (0).
-    pub g: FloatParam,
-    /// Single-scattering albedo of the filling (0: clear).
-    pub albedo: SpectrumParam,
-    /// Largest number of scattering events of a walk (10).
-    pub max_depth: u32,
-    /// Number of walks per evaluation (1), ≥ 1.
-    pub n_samples: u32,
+    /// The materials that it refers to.
+    pub fn parts(&self) -> impl Iterator<Item = Id<Self>> + '_ {
+        self.arguments
+            .iter()
+            .flat_map(|a| match &a.value {
+                ArgumentValue::Materials(ids) => ids.as_slice(),
+                _ => &[],
+            })
+            .copied()
+    }
+
+    /// Whether it is a mere boundary of media.
+    pub fn is_interface(&self) -> bool {
+        self.class.role == Role::Interface
+    }
 }

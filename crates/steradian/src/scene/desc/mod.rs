@@ -19,7 +19,7 @@ pub use film::{FilmDesc, FilmKind, FilterDesc, FilterKind, GBufferSpace, SensorD
 pub use id::Id;
 pub use integrator::{IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc};
 pub use light::{AreaLightDesc, AreaRadiance, LightDesc, LightKind, Normalization};
-pub use material::{ConductorOptics, LayerDesc, MaterialDesc, MaterialKind, RoughnessDesc};
+pub use material::{ArgumentDesc, ArgumentValue, MaterialDesc};
 pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface, MediumKind};
 pub use options::{OptionsDesc, RenderingSpace};
 pub use sampler::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};

@@ -243,6 +243,20 @@ impl<'c> Args<'c> {
         self.float_where(name, default, |v| v >= 0.0, "at least 0")
     }
 
+    /// Reports a number outside of [min, max].
+    pub(super) fn demand_range(&mut self, name: &str, value: f32, min: f32, max: f32) {
+        if (min..=max).contains(&value) {
+            return;
+        }
+        let demand = match (min.is_finite(), max.is_finite()) {
+            (true, false) => format!("at least {}", Shown(min)),
+            (false, true) => format!("at most {}", Shown(max)),
+            _ => format!("from {} to {}", Shown(min), Shown(max)),
+        };
+        let span = self.span_of(name);
+        self.error(span, format!("parameter \"{name}\" must be {demand}, found {}", Shown(value)));
+    }
+
     /// Numbers.
     pub(super) fn floats(&mut self, name: &'static str) -> Option<Many<f32>> {
         self.numbers(name, ParamType::Float)

@@ -4,9 +4,9 @@ use super::args::Args;
 use super::machine::{Importer, default_material};
 use super::state::Target;
 use super::{camera, film, integrator, light, material, medium, sampler, shape, texture};
+use crate::material::Role;
 use crate::scene::desc::{
-    CameraDesc, Id, LightDesc, MaterialDesc, MaterialKind, MediumDesc, MediumKind, ShapeDesc, TextureDesc,
-    TextureId,
+    CameraDesc, Id, LightDesc, MaterialDesc, MediumDesc, MediumKind, ShapeDesc, TextureDesc, TextureId,
 };
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::source::Span;
@@ -276,15 +276,17 @@ fn class_of(args: &mut Args<'_>, kind: &str) -> Option<Text> {
 }
 
 fn read_material(name: Option<&Text>, class: &Text, args: &mut Args<'_>, span: Span) -> MaterialDesc {
-    let Some(kind) = material::material(class, args) else {
-        return MaterialDesc { name: name.map(|n| n.value.clone()), ..default_material(span) };
+    let name = name.map(|n| n.value.clone());
+    let Some(class) = material::class(class, args) else {
+        return MaterialDesc { name, ..default_material(span) };
     };
-    let bumpy = !matches!(kind, MaterialKind::Mix { .. } | MaterialKind::Interface);
+    let scatters = matches!(class.role, Role::Surface | Role::Specular);
     MaterialDesc {
-        name: name.map(|n| n.value.clone()),
-        displacement: if bumpy { args.float_param_opt("displacement") } else { None },
-        normal_map: if bumpy { args.file("normalmap") } else { None },
-        kind,
+        name,
+        class,
+        arguments: material::arguments(class, args),
+        displacement: if scatters { args.float_param_opt("displacement") } else { None },
+        normal_map: if scatters { args.file("normalmap") } else { None },
         span,
     }
 }

@@ -10,7 +10,7 @@ use super::names::Table;
 use super::sampler::default_sampler;
 use crate::color::ColorSpaceKind;
 use crate::math::{AnimatedTransform, Transform};
-use crate::scene::desc::{CameraDesc, Id, MaterialDesc, MaterialKind, SceneDesc, ShapeDesc, TextureId};
+use crate::scene::desc::{CameraDesc, Id, MaterialDesc, SceneDesc, ShapeDesc, TextureId};
 use crate::scene::diagnostic::{Diagnostic, Severity};
 use crate::scene::source::Span;
 
@@ -186,9 +186,10 @@ fn texture_order(ctx: &mut Context) -> Vec<TextureId> {
 
 fn report_mixes_of_themselves(ctx: &mut Context) {
     let materials = &ctx.materials;
-    let uses = |n: usize| match materials.get(Id::new(n as u32)).map(|m: &MaterialDesc| &m.kind) {
-        Some(MaterialKind::Mix { materials, .. }) => materials.iter().map(|m| m.index()).collect(),
-        _ => Vec::new(),
+    let uses = |n: usize| {
+        materials
+            .get(Id::new(n as u32))
+            .map_or(Vec::new(), |m: &MaterialDesc| m.parts().map(|m| m.index()).collect())
     };
     let (_, circular) = depth_first(materials.len(), uses);
     for n in circular {
@@ -202,9 +203,7 @@ fn report_mixes_of_themselves(ctx: &mut Context) {
 /// A boundary of media emits nothing, whatever the graphics state says.
 fn drop_light_of_interfaces(importer: &mut Importer<'_>) {
     let Importer { shapes, ctx, .. } = importer;
-    let is_interface = |s: &ShapeDesc| {
-        ctx.materials.get(s.material).is_some_and(|m| matches!(m.kind, MaterialKind::Interface))
-    };
+    let is_interface = |s: &ShapeDesc| ctx.materials.get(s.material).is_some_and(MaterialDesc::is_interface);
     for shape in shapes {
         if shape.area_light.is_some() && is_interface(shape) {
             shape.area_light = None;

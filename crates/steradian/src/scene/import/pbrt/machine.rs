@@ -6,11 +6,11 @@ use super::input::Input;
 use super::options::set_option;
 use super::state::{Ctm, State, Target};
 use crate::color::ColorSpaceKind;
+use crate::material;
 use crate::math::{Point, Transform, Vec3};
 use crate::scene::desc::{
     AreaLightDesc, CameraDesc, FilmDesc, FilterDesc, Id, InstanceDesc, IntegratorDesc, LightDesc,
-    MaterialDesc, MaterialKind, ObjectDesc, OptionsDesc, SamplerDesc, ShapeDesc, SpectrumDesc, SpectrumParam,
-    SpectrumValue,
+    MaterialDesc, ObjectDesc, OptionsDesc, SamplerDesc, ShapeDesc,
 };
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::files::{FileBytes, FileSystem, reason};
@@ -560,7 +560,7 @@ fn place_of(statement: &Statement) -> Place {
 
 /// The material of shapes that state none.
 pub(super) fn default_material(span: Span) -> MaterialDesc {
-    let half = SpectrumDesc { value: SpectrumValue::Constant(0.5), span };
-    let kind = MaterialKind::Diffuse { reflectance: SpectrumParam::Value(half) };
-    MaterialDesc { name: None, kind, displacement: None, normal_map: None, span }
+    let class = &material::CLASSES[0];
+    let arguments = super::material::defaults(class, span);
+    MaterialDesc { name: None, class, arguments, displacement: None, normal_map: None, span }
 }

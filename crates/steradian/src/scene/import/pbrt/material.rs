@@ -1,26 +1,17 @@
-//! Material classes.
+//! Material classes: their parameters are read by the schema of the class.
 
 use super::args::Args;
-use super::spectrum::Role;
+use super::spectrum::Role as Meaning;
+use crate::material::schema::{Quantity, SpectrumDefault};
+use crate::material::{self, CLASSES, Class, Parameter, ParameterKind};
 use crate::scene::desc::{
-    ConductorOptics, FloatParam, LayerDesc, MaterialKind, RoughnessDesc, SpectrumParam, SpectrumValue,
+    ArgumentDesc, ArgumentValue, FloatParam, SpectrumDesc, SpectrumParam, SpectrumValue,
 };
+use crate::scene::source::Span;
 use crate::scene::text::Text;
 
-const CLASSES: &[&str] = &[
-    "diffuse",
-    "coateddiffuse",
-    "diffusetransmission",
-    "conductor",
-    "coatedconductor",
-    "dielectric",
-    "thindielectric",
-    "mix",
-    "interface",
-    "hair",
-    "measured",
-    "subsurface",
-];
+/// Classes of the format that cannot be rendered yet.
+const UNSUPPORTED: &[&str] = &["hair", "measured", "subsurface"];
 const V3_CLASSES: &[&str] = &[
     "matte",
     "plastic",
@@ -35,123 +26,135 @@ const V3_CLASSES: &[&str] = &[
     "kdsubsurface",
 ];
 
-/// Reads the parameters of a material class; `None` when the class is unknown or unsupported (and reported).
-pub(super) fn material(class: &Text, args: &mut Args<'_>) -> Option<MaterialKind> {
-    Some(match class.value.as_str() {
-        "diffuse" => {
-            MaterialKind::Diffuse { reflectance: args.spectrum_param("reflectance", Role::Albedo, 0.5) }
-        }
-        "diffusetransmission" => MaterialKind::DiffuseTransmission {
-            reflectance: args.spectrum_param("reflectance", Role::Albedo, 0.25),
-            transmittance: args.spectrum_param("transmittance", Role::Albedo, 0.25),
-            scale: args.non_negative("scale", 1.0),
-        },
-        "conductor" => MaterialKind::Conductor {
-            optics: conductor(args, "eta", "k"),
-            roughness: roughness(args, ["roughness", "uroughness", "vroughness"]),
-        },
-        "dielectric" => MaterialKind::Dielectric {
-            eta: args.refractive_index("eta", 1.5),
-            roughness: roughness(args, ["roughness", "uroughness", "vroughness"]),
-        },
-        "thindielectric" => MaterialKind::ThinDielectric { eta: args.refractive_index("eta", 1.5) },
-        "coateddiffuse" => MaterialKind::CoatedDiffuse {
-            reflectance: args.spectrum_param("reflectance", Role::Albedo, 0.5),
-            roughness: roughness(args, ["roughness", "uroughness", "vroughness"]),
-            eta: args.refractive_index("eta", 1.5),
-            layer: layer(args),
-        },
-        "coatedconductor" => coated_conductor(args),
-        "mix" => return mix(args),
-        "interface" => MaterialKind::Interface,
+/// The class of that name; `None` when it is unknown or unsupported (and reported).
+pub(super) fn class(name: &Text, args: &mut Args<'_>) -> Option<&'static Class> {
+    let word = name.value.as_str();
+    if let Some(class) = material::class(word) {
+        return Some(class);
+    }
+    match word {
         "" | "none" => {
-            let name = &class.value;
-            let message = format!("material \"{name}\" is an old name of \"interface\"");
-            args.ctx.diagnostics.notice(class.span, message);
-            MaterialKind::Interface
+            let message = format!("material \"{word}\" is an old name of \"interface\"");
+            args.ctx.diagnostics.notice(name.span, message);
+            return material::class("interface");
         }
-        "hair" | "measured" | "subsurface" => {
-            args.unsupported_class("material", class);
-            return None;
-        }
+        _ if UNSUPPORTED.contains(&word) => args.unsupported_class("material", name),
         _ => {
-            args.unknown_class("material", class, CLASSES, V3_CLASSES);
-            return None;
+            let known: Vec<&str> =
+                CLASSES.iter().map(|c| c.name).chain(UNSUPPORTED.iter().copied()).collect();
+            args.unknown_class("material", name, &known, V3_CLASSES);
         }
-    })
-}
-
-fn roughness(args: &mut Args<'_>, names: [&'static str; 3]) -> RoughnessDesc {
-    let [both, u, v] = names;
-    let both = args.float_param(both, 0.0);
-    RoughnessDesc {
-        u: args.float_param_opt(u).unwrap_or(both),
-        v: args.float_param_opt(v).unwrap_or(both),
-        remap: args.bool("remaproughness", true),
     }
+    None
 }
 
-/// Scattering events, and walks, within a layered material: each point that is hit pays for all of them.
-const MAX_WALK: u32 = 1000;
-
-fn layer(args: &mut Args<'_>) -> LayerDesc {
-    LayerDesc {
-        thickness: args.float_param("thickness", 0.01),
-        g: args.float_param("g", 0.0),
-        albedo: args.spectrum_param("albedo", Role::Albedo, 0.0),
-        max_depth: args.count("maxdepth", 10, 0..=MAX_WALK),
-        n_samples: args.count("nsamples", 1, 1..=MAX_WALK),
-    }
+/// Reads the parameters of a class.
+pub(super) fn arguments(class: &Class, args: &mut Args<'_>) -> Vec<ArgumentDesc> {
+    class.parameters.iter().map(|p| argument(p, args)).collect()
 }
 
-fn conductor(args: &mut Args<'_>, eta_name: &'static str, k_name: &'static str) -> ConductorOptics {
-    let span = args.span_of("reflectance");
-    let reflectance = args.spectrum_param_opt("reflectance", Role::Albedo);
-    let (eta, k) = (
-        args.spectrum_param_opt(eta_name, Role::Unbounded),
-        args.spectrum_param_opt(k_name, Role::Unbounded),
-    );
-    if let Some(reflectance) = reflectance {
-        if eta.is_some() || k.is_some() {
-            args.error(span, format!("give \"reflectance\", or \"{eta_name}\" and \"{k_name}\", not both"));
+/// The values of a class of which nothing is stated, located at `span`.
+pub(super) fn defaults(class: &Class, span: Span) -> Vec<ArgumentDesc> {
+    let of = |p: &Parameter| {
+        let value = match p.kind {
+            ParameterKind::Spectrum { default, .. } => {
+                ArgumentValue::Spectrum(default_spectrum(default, span))
+            }
+            ParameterKind::Index { default } => ArgumentValue::Index(default.map(|v| constant(v, span))),
+            ParameterKind::Float { default, .. } => ArgumentValue::Float(default.map(FloatParam::Value)),
+            ParameterKind::Number { default, .. } => ArgumentValue::Number(default),
+            ParameterKind::Numbers => ArgumentValue::Numbers(Vec::new()),
+            ParameterKind::Spectra => ArgumentValue::Spectra(Vec::new()),
+            ParameterKind::Flag { default } => ArgumentValue::Flag(default),
+            ParameterKind::Count { default, .. } => ArgumentValue::Count(default),
+            ParameterKind::Choice { options } => {
+                ArgumentValue::Choice(options.first().copied().unwrap_or(""))
+            }
+            ParameterKind::File { .. } => ArgumentValue::File(None),
+            ParameterKind::Materials { .. } => ArgumentValue::Materials(Vec::new()),
+        };
+        ArgumentDesc { name: p.name, value, given: false, span }
+    };
+    class.parameters.iter().map(of).collect()
+}
+
+fn constant(value: f32, span: Span) -> SpectrumDesc {
+    SpectrumDesc { value: SpectrumValue::Constant(value), span }
+}
+
+fn default_spectrum(default: SpectrumDefault, span: Span) -> Option<SpectrumParam> {
+    let value = match default {
+        SpectrumDefault::Constant(v) => SpectrumValue::Constant(v),
+        SpectrumDefault::Named(name) => SpectrumValue::Named(name.to_owned()),
+        SpectrumDefault::Absent => return None,
+    };
+    Some(SpectrumParam::Value(SpectrumDesc { value, span }))
+}
+
+fn argument(p: &Parameter, args: &mut Args<'_>) -> ArgumentDesc {
+    let (name, given, span) = (p.name, args.has(p.name), args.span_of(p.name));
+    let value = match p.kind {
+        ParameterKind::Spectrum { quantity, default } => {
+            let meaning = match quantity {
+                Quantity::Fraction => Meaning::Albedo,
+                Quantity::Unbounded => Meaning::Unbounded,
+            };
+            let read = args.spectrum_param_opt(name, meaning);
+            ArgumentValue::Spectrum(read.or_else(|| default_spectrum(default, args.span)))
         }
-        return ConductorOptics::Reflectance(reflectance);
-    }
-    let copper = |name: &str, args: &Args<'_>| {
-        SpectrumParam::Value(args.default_spectrum(SpectrumValue::Named(name.to_owned())))
+        ParameterKind::Index { default } => {
+            let read = args.refractive_index_opt(name);
+            ArgumentValue::Index(read.or_else(|| default.map(|v| constant(v, args.span))))
+        }
+        ParameterKind::Float { default, min, max } => {
+            let read = args.float_param_opt(name);
+            if let Some(FloatParam::Value(v)) = read {
+                args.demand_range(name, v, min, max);
+            }
+            ArgumentValue::Float(read.or(default.map(FloatParam::Value)))
+        }
+        ParameterKind::Number { default, min, max } => {
+            let read = args.float_opt(name);
+            if let Some(v) = read {
+                args.demand_range(name, v, min, max);
+            }
+            ArgumentValue::Number(read.or(default))
+        }
+        ParameterKind::Numbers => ArgumentValue::Numbers(args.floats(name).map_or(Vec::new(), |m| m.values)),
+        ParameterKind::Spectra => ArgumentValue::Spectra(args.spectra(name)),
+        ParameterKind::Flag { default } => ArgumentValue::Flag(args.bool(name, default)),
+        ParameterKind::Count { default, min, max } => {
+            ArgumentValue::Count(args.count(name, default, min..=max))
+        }
+        ParameterKind::Choice { options } => {
+            let choices: Vec<(&str, &'static str)> = options.iter().map(|&o| (o, o)).collect();
+            ArgumentValue::Choice(args.choice(name, options.first().copied().unwrap_or(""), &choices))
+        }
+        ParameterKind::File { required } => {
+            let file = args.file(name);
+            if required && file.is_none() {
+                args.missing(name);
+            }
+            ArgumentValue::File(file)
+        }
+        ParameterKind::Materials { count } => ArgumentValue::Materials(materials(name, count, args)),
     };
-    ConductorOptics::Index {
-        eta: eta.unwrap_or_else(|| copper("metal-Cu-eta", args)),
-        k: k.unwrap_or_else(|| copper("metal-Cu-k", args)),
-    }
+    ArgumentDesc { name, value, given, span }
 }
 
-fn coated_conductor(args: &mut Args<'_>) -> MaterialKind {
-    let interface_roughness =
-        roughness(args, ["interface.roughness", "interface.uroughness", "interface.vroughness"]);
-    let interface_eta = args.refractive_index("interface.eta", 1.5);
-    let optics = conductor(args, "conductor.eta", "conductor.k");
-    let both = args.float_param("conductor.roughness", 0.0);
-    let conductor_roughness = RoughnessDesc {
-        u: args.float_param_opt("conductor.uroughness").unwrap_or(both),
-        v: args.float_param_opt("conductor.vroughness").unwrap_or(both),
-        remap: interface_roughness.remap,
+fn materials(
+    name: &'static str,
+    count: usize,
+    args: &mut Args<'_>,
+) -> Vec<crate::scene::desc::Id<crate::scene::desc::MaterialDesc>> {
+    let Some(names) = args.texts(name) else {
+        args.missing(name);
+        return Vec::new();
     };
-    let layer = layer(args);
-    MaterialKind::CoatedConductor { interface_roughness, interface_eta, optics, conductor_roughness, layer }
-}
-
-fn mix(args: &mut Args<'_>) -> Option<MaterialKind> {
-    let amount: FloatParam = args.float_param("amount", 0.5);
-    let Some(names) = args.texts("materials") else {
-        args.missing("materials");
-        return None;
-    };
-    let [a, b] = names.values.as_slice() else {
+    if names.values.len() != count {
         let n = names.values.len();
-        args.error(names.span, format!("\"materials\" takes the names of 2 materials, found {n}"));
-        return None;
-    };
-    let materials = [args.ctx.materials.refer(a), args.ctx.materials.refer(b)];
-    Some(MaterialKind::Mix { materials, amount })
+        args.error(names.span, format!("\"{name}\" takes the names of {count} materials, found {n}"));
+        return Vec::new();
+    }
+    names.values.iter().map(|n| args.ctx.materials.refer(n)).collect()
 }

@@ -67,24 +67,50 @@ impl Args<'_> {
     }
 
     /// An index of refraction: a number > 0 or a spectrum.
-    pub(super) fn refractive_index(&mut self, name: &'static str, default: f32) -> SpectrumParam {
-        let fallback = self.default_spectrum(SpectrumValue::Constant(default));
+    pub(super) fn refractive_index_opt(&mut self, name: &'static str) -> Option<SpectrumDesc> {
         let types = [ParamType::Float, ParamType::Spectrum, ParamType::Rgb, ParamType::Blackbody];
-        let Some(taken) = self.take(name, &types) else { return SpectrumParam::Value(fallback) };
+        let taken = self.take(name, &types)?;
         if taken.param.ty != ParamType::Float {
-            return SpectrumParam::Value(self.spectrum_value(taken, Role::Unbounded).unwrap_or(fallback));
+            return self.spectrum_value(taken, Role::Unbounded);
         }
         let span = taken.param.value_span;
         match &taken.param.values {
             Values::Numbers(v) if v.len() == 1 && INDICES.contains(&v[0]) => {
-                SpectrumParam::Value(SpectrumDesc { value: SpectrumValue::Constant(v[0]), span })
+                Some(SpectrumDesc { value: SpectrumValue::Constant(v[0]), span })
             }
             _ => {
                 let (low, high) = (INDICES.start(), INDICES.end());
                 let demand = format!("must be one number from {low} to {high} or a spectrum");
                 self.error(span, format!("parameter \"{name}\" {demand}"));
-                SpectrumParam::Value(fallback)
+                None
             }
+        }
+    }
+
+    /// A list of spectra: numbers, or names.
+    pub(super) fn spectra(&mut self, name: &'static str) -> Vec<SpectrumDesc> {
+        let Some(taken) = self.take(name, &[ParamType::Float, ParamType::Spectrum]) else {
+            return Vec::new();
+        };
+        let span = taken.param.value_span;
+        match &taken.param.values {
+            Values::Numbers(v) if taken.param.ty == ParamType::Float => {
+                v.iter().map(|&v| SpectrumDesc { value: SpectrumValue::Constant(v), span }).collect()
+            }
+            Values::Numbers(v) => {
+                let samples = self.samples(&taken.param, v);
+                samples.map(|value| SpectrumDesc { value, span }).into_iter().collect()
+            }
+            Values::Texts(names) => {
+                let mut all = Vec::new();
+                for n in names {
+                    all.extend(
+                        self.named(&n.value, n.span).map(|value| SpectrumDesc { value, span: n.span }),
+                    );
+                }
+                all
+            }
+            Values::Integers(_) | Values::Bools(_) => Vec::new(),
         }
     }
 

@@ -14,6 +14,13 @@ fn constant(p: &SpectrumParam) -> f32 {
     }
 }
 
+fn fraction(m: &MaterialDesc, name: &str) -> f32 {
+    match &m.argument(name).unwrap().value {
+        ArgumentValue::Spectrum(Some(p)) => constant(p),
+        other => panic!("{other:?} is no spectrum"),
+    }
+}
+
 #[test]
 fn an_empty_world_has_the_defaults_of_pbrt() {
     let s = scene("WorldBegin");
@@ -33,8 +40,7 @@ fn an_empty_world_has_the_defaults_of_pbrt() {
     let path = PathDesc { max_depth: 5, regularize: false, light_sampler: None };
     assert_eq!(s.integrator.kind, IntegratorKind::VolPath(path));
     assert_eq!(s.options, OptionsDesc::default());
-    let MaterialKind::Diffuse { reflectance } = &s.materials[0].kind else { panic!("diffuse") };
-    assert_eq!(constant(reflectance), 0.5);
+    assert_eq!((s.materials[0].class.name, fraction(&s.materials[0], "reflectance")), ("diffuse", 0.5));
 }
 
 #[test]
@@ -217,61 +223,55 @@ fn curves_and_subdivision_surfaces() {
 
 #[test]
 fn every_material_reads_its_parameters() {
-    let kind = |text: &str| {
-        let s = world(&format!("Texture \"f\" \"float\" \"constant\" Material {text}"));
-        s.materials[1].kind.clone()
+    let material = |text: &str| {
+        let mut s = world(&format!("Texture \"f\" \"float\" \"constant\" Material {text}"));
+        s.materials.remove(1)
     };
-    let MaterialKind::DiffuseTransmission { reflectance, transmittance, scale } =
-        kind("\"diffusetransmission\"")
-    else {
-        panic!()
-    };
-    assert_eq!((constant(&reflectance), constant(&transmittance), scale), (0.25, 0.25, 1.0));
-    let MaterialKind::Conductor { optics: ConductorOptics::Index { eta, .. }, roughness } =
-        kind("\"conductor\" \"float roughness\" .2 \"float vroughness\" .3 \"bool remaproughness\" false")
-    else {
-        panic!()
-    };
-    let SpectrumParam::Value(eta) = eta else { panic!() };
-    assert_eq!(eta.value, SpectrumValue::Named("metal-Cu-eta".to_owned()));
-    let expected = RoughnessDesc { u: FloatParam::Value(0.2), v: FloatParam::Value(0.3), remap: false };
-    assert_eq!(roughness, expected);
-    let MaterialKind::Dielectric { eta, .. } = kind("\"dielectric\" \"float eta\" 1.33") else { panic!() };
-    assert_eq!(constant(&eta), 1.33);
-    let MaterialKind::ThinDielectric { eta } = kind("\"thindielectric\" \"spectrum eta\" \"glass-BK7\"")
-    else {
-        panic!()
-    };
-    let SpectrumParam::Value(eta) = eta else { panic!() };
-    assert_eq!(eta.value, SpectrumValue::Named("glass-BK7".to_owned()));
-    let MaterialKind::CoatedDiffuse { roughness, layer, .. } = kind(
-        "\"coateddiffuse\" \"texture thickness\" \"f\" \"float g\" .5 \"integer maxdepth\" 3 \"integer nsamples\" 2",
-    ) else {
-        panic!()
-    };
-    assert_eq!(roughness.u, FloatParam::Value(0.0));
-    assert!(matches!(layer.thickness, FloatParam::Texture(_)));
-    assert_eq!((layer.g, layer.max_depth, layer.n_samples), (FloatParam::Value(0.5), 3, 2));
-    let MaterialKind::CoatedConductor { interface_roughness, optics, conductor_roughness, .. } = kind(
-        "\"coatedconductor\" \"float interface.roughness\" .1 \"float conductor.uroughness\" .4 \"rgb reflectance\" [.5 .5 .5]",
-    ) else {
-        panic!()
-    };
-    assert_eq!(interface_roughness.v, FloatParam::Value(0.1));
-    assert_eq!(
-        (conductor_roughness.u, conductor_roughness.v),
-        (FloatParam::Value(0.4), FloatParam::Value(0.0))
+    let value = |m: &MaterialDesc, name: &str| m.argument(name).unwrap().value.clone();
+    let float = |v| ArgumentValue::Float(Some(FloatParam::Value(v)));
+    let m = material("\"diffusetransmission\"");
+    assert_eq!((fraction(&m, "reflectance"), fraction(&m, "transmittance")), (0.25, 0.25));
+    assert_eq!(value(&m, "scale"), ArgumentValue::Number(Some(1.0)));
+    let m = material(
+        "\"conductor\" \"float roughness\" .2 \"float vroughness\" .3 \"bool remaproughness\" false",
     );
-    assert!(matches!(optics, ConductorOptics::Reflectance(_)));
-    assert!(matches!(kind("\"interface\""), MaterialKind::Interface));
+    let ArgumentValue::Spectrum(Some(SpectrumParam::Value(eta))) = value(&m, "eta") else { panic!() };
+    assert_eq!(eta.value, SpectrumValue::Named("metal-Cu-eta".to_owned()));
+    assert_eq!(value(&m, "roughness"), float(0.2));
+    assert_eq!(value(&m, "uroughness"), ArgumentValue::Float(None));
+    assert_eq!(value(&m, "vroughness"), float(0.3));
+    assert_eq!(value(&m, "remaproughness"), ArgumentValue::Flag(false));
+    assert!(m.argument("roughness").unwrap().given && !m.argument("eta").unwrap().given);
+    let index = |m: &MaterialDesc| match value(m, "eta") {
+        ArgumentValue::Index(Some(eta)) => eta.value,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(index(&material("\"dielectric\" \"float eta\" 1.33")), SpectrumValue::Constant(1.33));
+    let m = material("\"thindielectric\" \"spectrum eta\" \"glass-BK7\"");
+    assert_eq!(index(&m), SpectrumValue::Named("glass-BK7".to_owned()));
+    let m = material(
+        "\"coateddiffuse\" \"texture thickness\" \"f\" \"float g\" .5 \"integer maxdepth\" 3 \"integer nsamples\" 2",
+    );
+    assert_eq!(value(&m, "roughness"), float(0.0));
+    assert!(matches!(value(&m, "thickness"), ArgumentValue::Float(Some(FloatParam::Texture(_)))));
+    assert_eq!(value(&m, "g"), float(0.5));
+    assert_eq!(value(&m, "maxdepth"), ArgumentValue::Count(3));
+    assert_eq!(value(&m, "nsamples"), ArgumentValue::Count(2));
+    let m = material(
+        "\"coatedconductor\" \"float interface.roughness\" .1 \"float conductor.uroughness\" .4 \"rgb reflectance\" [.5 .5 .5]",
+    );
+    assert_eq!(value(&m, "interface.roughness"), float(0.1));
+    assert_eq!(value(&m, "conductor.uroughness"), float(0.4));
+    assert!(matches!(value(&m, "reflectance"), ArgumentValue::Spectrum(Some(_))));
+    assert!(material("\"interface\"").is_interface());
     let s = world(
         "MakeNamedMaterial \"mix\" \"string type\" \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .25 \
          MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"texture displacement\" \"h\" \"string normalmap\" \"n.png\" \
          MakeNamedMaterial \"b\" \"string type\" \"dielectric\" Texture \"h\" \"float\" \"wrinkled\"",
     );
-    let MaterialKind::Mix { materials, amount } = &s.materials[1].kind else { panic!() };
-    assert_eq!(*amount, FloatParam::Value(0.25));
-    let [a, b] = materials.map(|m| s.material(m).unwrap());
+    assert_eq!(value(&s.materials[1], "amount"), float(0.25));
+    let parts: Vec<_> = s.materials[1].parts().map(|m| s.material(m).unwrap()).collect();
+    let [a, b] = parts[..] else { panic!("two parts") };
     assert_eq!((a.name.as_deref(), b.name.as_deref()), (Some("a"), Some("b")));
     assert!(a.displacement.is_some());
     assert_eq!(a.normal_map.as_ref().unwrap().path, Path::new("n.png"));

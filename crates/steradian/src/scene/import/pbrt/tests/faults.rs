@@ -175,10 +175,6 @@ fn faults_of_spectra() {
         "Material \"dielectric\" \"float eta\" 0",
         &["2:35: error: parameter \"eta\" must be one number from 0.01 to 100 or a spectrum"],
     );
-    expect(
-        "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"spectrum k\" \"metal-Ag-k\"",
-        &["2:22: error: give \"reflectance\", or \"eta\" and \"k\", not both"],
-    );
 }
 
 #[test]

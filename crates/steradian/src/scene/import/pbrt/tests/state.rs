@@ -4,7 +4,7 @@ use super::{import_with, messages, scene, world};
 use crate::color::ColorSpaceKind;
 use crate::math::{Point, Transform, Vec3};
 use crate::scene::desc::{
-    FloatTextureKind, MaterialKind, ShapeKind, SpectrumParam, SpectrumValue, TextureId,
+    ArgumentValue, FloatTextureKind, ShapeKind, SpectrumParam, SpectrumValue, TextureId,
 };
 use crate::scene::files::MemoryFiles;
 use crate::scene::import::pbrt::{Input, import};
@@ -44,7 +44,7 @@ fn attribute_blocks_restore_the_whole_state() {
     );
     let (inner, outer) = (&s.shapes[0], &s.shapes[1]);
     assert!(inner.reverse_orientation && inner.area_light.is_some());
-    assert!(matches!(s.materials[inner.material.index()].kind, MaterialKind::Conductor { .. }));
+    assert_eq!(s.materials[inner.material.index()].class.name, "conductor");
     assert!(!outer.reverse_orientation && outer.area_light.is_none());
     assert_eq!(outer.material.index(), 0);
     assert_eq!(*outer.world_from_object.start(), Transform::IDENTITY);
@@ -88,9 +88,8 @@ fn color_space_holds_for_what_follows_and_the_film_remembers_its_own() {
          LightSource \"point\"",
     );
     assert_eq!(s.film.color_space, ColorSpaceKind::Rec2020);
-    let MaterialKind::Diffuse { reflectance: SpectrumParam::Value(v) } = &s.materials[1].kind else {
-        panic!()
-    };
+    let reflectance = &s.materials[1].argument("reflectance").unwrap().value;
+    let ArgumentValue::Spectrum(Some(SpectrumParam::Value(v))) = reflectance else { panic!() };
     assert_eq!(v.value, SpectrumValue::Rgb { rgb: [0.1, 0.2, 0.3], color_space: ColorSpaceKind::Aces2065_1 });
     let crate::scene::desc::LightKind::Point { intensity, .. } = &s.lights[0].kind else { panic!() };
     assert_eq!(intensity.value, SpectrumValue::Illuminant(ColorSpaceKind::Aces2065_1));
@@ -117,7 +116,7 @@ fn materials_and_objects_may_be_named_before_they_are_defined() {
     );
     let material = &s.materials[s.shapes[0].material.index()];
     assert_eq!(material.name.as_deref(), Some("later"));
-    assert!(matches!(material.kind, MaterialKind::ThinDielectric { .. }));
+    assert_eq!(material.class.name, "thindielectric");
     assert_eq!((s.shapes.len(), s.objects.len(), s.instances.len()), (1, 1, 1));
     // The transform of the definition belongs to the shapes, that of the instance to the instance.
     near(s.objects[0].shapes[0].world_from_object.start().point(Point::ORIGIN).0, Vec3::X);

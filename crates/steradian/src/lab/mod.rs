@@ -1,0 +1,5 @@
+//! The light laboratory: the scene's own materials under virtual instruments.
+
+pub mod subject;
+
+pub use subject::{Subject, UnknownMaterial};
