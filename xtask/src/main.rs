@@ -3,6 +3,7 @@
 mod bench_mitsuba;
 mod imports;
 mod layers;
+mod mitsuba_bsdfs;
 mod references;
 
 use std::path::Path;
@@ -16,6 +17,8 @@ const USAGE: &str = "usage: cargo xtask <command>
             render the scenes of the collection that have reference pictures and compare them
   bench-mitsuba [--python EXE]
             samples per second against Mitsuba 3 on its Cornell box; run with --release
+  mitsuba-bsdfs [--python EXE] [--bsdf FILE]
+            f and densities of our scattering functions against those of Mitsuba 3, FILE among them
 ";
 
 fn main() -> ExitCode {
@@ -25,6 +28,7 @@ fn main() -> ExitCode {
         Some("layers") => layers::check(&root.join("crates/steradian/src")),
         Some("references") => references::run(&root, &arguments[1..]),
         Some("bench-mitsuba") => bench_mitsuba::run(&root, &arguments[1..]),
+        Some("mitsuba-bsdfs") => mitsuba_bsdfs::run(&arguments[1..]),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {
