@@ -1,5 +1,6 @@
 //! The light laboratory: the scene's own materials under virtual instruments.
 
+pub mod plot;
 pub mod subject;
 
 pub use subject::{Subject, UnknownMaterial};
