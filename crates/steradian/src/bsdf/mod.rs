@@ -6,10 +6,14 @@ pub mod albedo;
 pub mod conductor;
 pub mod conformance;
 pub mod contract;
+mod cosine_lobe;
 pub mod dielectric;
 pub mod diffuse;
 pub mod layered;
+pub mod legacy_phong;
 pub mod measured;
+pub mod mirror;
+pub mod modified_phong;
 pub mod oren_nayar;
 mod quadrature;
 pub mod specimen;
@@ -21,7 +25,10 @@ pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
 pub use layered::{Coat, ExitWeights, Layered};
+pub use legacy_phong::LegacyPhong;
 pub use measured::{Measured, MeasuredTable};
+pub use mirror::Mirror;
+pub use modified_phong::{ModifiedPhong, PhongLobe, PhongNormalization, PhongSampling};
 pub use oren_nayar::OrenNayar;
 pub use specimen::{Claims, Energy, Reciprocity, Specimen, Values};
 pub use varnished::VarnishedDiffuse;
@@ -39,6 +46,12 @@ pub enum Bsdf<'a> {
     DiffuseTransmission(DiffuseTransmission),
     /// Rough diffuse reflection.
     OrenNayar(OrenNayar),
+    /// A perfect mirror.
+    Mirror(Mirror),
+    /// The modified Phong model.
+    ModifiedPhong(ModifiedPhong),
+    /// Phong's legacy shading: not a BRDF.
+    LegacyPhong(LegacyPhong),
     /// A metal.
     Conductor(Conductor),
     /// The interface between two transparent media.
@@ -66,6 +79,9 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(b) => b.eval(wo, wi),
             Self::DiffuseTransmission(b) => b.eval(wo, wi),
             Self::OrenNayar(b) => b.eval(wo, wi),
+            Self::Mirror(_) => Sampled::ZERO,
+            Self::ModifiedPhong(b) => b.eval(wo, wi),
+            Self::LegacyPhong(b) => b.eval(wo, wi, mode),
             Self::Conductor(b) => b.eval(wo, wi),
             Self::Dielectric(b) => b.eval(wo, wi, mode),
             Self::ThinDielectric(_) => Sampled::ZERO,
@@ -82,6 +98,9 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(b) => b.pdf(wo, wi),
             Self::DiffuseTransmission(b) => b.pdf(wo, wi),
             Self::OrenNayar(b) => b.pdf(wo, wi),
+            Self::Mirror(_) => PdfSolidAngle(0.0),
+            Self::ModifiedPhong(b) => b.pdf(wo, wi),
+            Self::LegacyPhong(b) => b.pdf(wo, wi),
             Self::Conductor(b) => b.pdf(wo, wi),
             Self::Dielectric(b) => b.pdf(wo, wi),
             Self::ThinDielectric(_) => PdfSolidAngle(0.0),
@@ -99,6 +118,9 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(b) => b.sample(wo, u),
             Self::DiffuseTransmission(b) => b.sample(wo, uc, u),
             Self::OrenNayar(b) => b.sample(wo, uc, u),
+            Self::Mirror(b) => b.sample(wo),
+            Self::ModifiedPhong(b) => b.sample(wo, uc, u),
+            Self::LegacyPhong(b) => b.sample(wo, uc, u, mode),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u, mode),
             Self::ThinDielectric(b) => b.sample(wo, uc),
@@ -116,6 +138,8 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(b) => Some(b.albedo()),
             Self::DiffuseTransmission(b) => Some(b.albedo()),
             Self::OrenNayar(b) => Some(b.albedo(wi)),
+            Self::Mirror(b) => Some(b.albedo()),
+            Self::ModifiedPhong(_) | Self::LegacyPhong(_) => None,
             Self::Conductor(b) => b.albedo(wi),
             Self::Dielectric(b) => b.albedo(wi),
             Self::ThinDielectric(b) => Some(b.albedo(wi)),
@@ -134,6 +158,9 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(b) => b.lobes(),
             Self::DiffuseTransmission(b) => b.lobes(),
             Self::OrenNayar(b) => b.lobes(),
+            Self::Mirror(b) => b.lobes(),
+            Self::ModifiedPhong(b) => b.lobes(),
+            Self::LegacyPhong(b) => b.lobes(),
             Self::Conductor(b) => b.lobes(),
             Self::Dielectric(b) => b.lobes(),
             Self::ThinDielectric(_) => Lobes::default(),
@@ -153,6 +180,9 @@ impl<'a> Bsdf<'a> {
             | Self::ThinDielectric(_)
             | Self::Measured(_)
             | Self::OrenNayar(_) => {}
+            Self::Mirror(b) => *self = Self::ModifiedPhong(b.regularized()),
+            Self::ModifiedPhong(b) => b.regularize(),
+            Self::LegacyPhong(b) => b.regularize(),
             Self::Conductor(b) => b.regularize(),
             Self::Dielectric(b) => b.regularize(),
             Self::VarnishedDiffuse(b) => {
@@ -175,6 +205,9 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(_)
             | Self::DiffuseTransmission(_)
             | Self::OrenNayar(_)
+            | Self::Mirror(_)
+            | Self::ModifiedPhong(_)
+            | Self::LegacyPhong(_)
             | Self::Conductor(_)
             | Self::Dielectric(_)
             | Self::ThinDielectric(_)
@@ -190,6 +223,9 @@ impl<'a> Bsdf<'a> {
             Self::Diffuse(b) => b.claims(),
             Self::DiffuseTransmission(b) => b.claims(),
             Self::OrenNayar(b) => b.claims(),
+            Self::Mirror(b) => b.claims(),
+            Self::ModifiedPhong(b) => b.claims(),
+            Self::LegacyPhong(b) => b.claims(),
             Self::Conductor(b) => b.claims(),
             Self::Dielectric(b) => b.claims(),
             Self::ThinDielectric(b) => b.claims(),
@@ -206,6 +242,8 @@ impl<'a> Bsdf<'a> {
         all.extend(Diffuse::specimens().map(|s| s.map(Self::Diffuse)));
         all.extend(DiffuseTransmission::specimens().map(|s| s.map(Self::DiffuseTransmission)));
         all.extend(OrenNayar::specimens().map(|s| s.map(Self::OrenNayar)));
+        all.extend(Mirror::specimens().map(|s| s.map(Self::Mirror)));
+        all.extend(ModifiedPhong::specimens().map(|s| s.map(Self::ModifiedPhong)));
         all.extend(Conductor::specimens().map(|s| s.map(Self::Conductor)));
         all.extend(Dielectric::specimens().map(|s| s.map(Self::Dielectric)));
         all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));
