@@ -9,7 +9,12 @@ mod detail;
 pub mod dielectric;
 pub mod diffuse;
 pub mod inputs;
+pub mod legacy_phong;
+pub mod mirror;
 pub mod mix;
+pub mod modified_phong;
+pub mod oren_nayar;
+mod passive;
 pub mod schema;
 pub mod surface;
 
@@ -19,7 +24,11 @@ pub use declared::{Declared, Role};
 pub use dielectric::{DielectricMaterial, ThinDielectricMaterial};
 pub use diffuse::{DiffuseMaterial, DiffuseTransmissionMaterial};
 pub use inputs::{CoatInput, Lookup, Metal, Roughness, RoughnessScale};
+pub use legacy_phong::LegacyPhongMaterial;
+pub use mirror::MirrorMaterial;
 pub use mix::{InterfaceMaterial, MixMaterial};
+pub use modified_phong::ModifiedPhongMaterial;
+pub use oren_nayar::OrenNayarMaterial;
 pub use schema::{Arguments, Fault, MaterialId, Parameter, ParameterKind};
 pub use surface::{SurfaceBsdf, SurfaceSample};
 
@@ -104,6 +113,14 @@ materials! {
     CoatedDiffuse(CoatedDiffuseMaterial),
     /// A dielectric coat over a metal.
     CoatedConductor(CoatedConductorMaterial),
+    /// Rough diffuse reflection.
+    OrenNayar(OrenNayarMaterial),
+    /// A perfect mirror.
+    Mirror(MirrorMaterial),
+    /// The modified Phong model.
+    ModifiedPhong(ModifiedPhongMaterial),
+    /// Phong's legacy shading: not a BRDF.
+    LegacyPhong(LegacyPhongMaterial),
     /// One of two materials.
     Mix(MixMaterial),
     /// The boundary of a medium.

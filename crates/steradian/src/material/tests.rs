@@ -1,4 +1,5 @@
 use super::*;
+use crate::bsdf::{PhongLobe, PhongNormalization, PhongSampling};
 use crate::math::{BoundedPoint, Normal, Point, Vec2, Vec3};
 use crate::spectrum::named::named;
 use crate::spectrum::{Sampled, Spectrum};
@@ -121,4 +122,21 @@ fn coated_metal_has_its_index_relative_to_the_coat() {
     let expected = r + (1.0 - r).powi(2) * big / (1.0 - r * big);
     // The weight's spread is below 0.4: four standard errors are 8e-3.
     assert!((total[0] - expected).abs() < 8e-3, "{total:?} {expected}");
+}
+
+#[test]
+fn phong_coefficients_that_textures_raise_above_one_are_scaled_in_proportion() {
+    let mut materials = Materials::new();
+    let phong = ModifiedPhongMaterial {
+        diffuse: constant(0.9),
+        specular: constant(0.6),
+        exponent: 10.0,
+        lobe: PhongLobe::Mirror,
+        normalization: PhongNormalization::Exact,
+        sampling: PhongSampling::Lobe,
+    };
+    let id = materials.push(Material::ModifiedPhong(phong), Detail::Flat).unwrap();
+    let surface = shade(&materials, id, 0.0, &mut Wavelengths::sample_visible(0.3)).unwrap();
+    let Bsdf::ModifiedPhong(b) = surface.bsdf() else { panic!("not Phong") };
+    assert!((b.diffuse[0] - 0.6).abs() < 1e-6 && (b.specular[0] - 0.4).abs() < 1e-6, "{b:?}");
 }
