@@ -3,6 +3,7 @@
 //! Nothing here knows a scene, a texture or a path; randomness is an argument.
 
 pub mod absorption;
+pub mod attenuation;
 pub mod complex;
 pub mod dispersion;
 pub mod films;
