@@ -138,13 +138,38 @@ pub fn conductor(cos_theta_i: f32, eta: f32, k: f32) -> f32 {
     conductor_polarized(cos_theta_i, eta, k).unpolarized()
 }
 
+/// Amplitudes of the reflected over the incident electric field, for the relative complex index of the far side, by
+/// Fresnel (1823); |r|² are [`conductor_polarized`]'s reflectances.
+///
+/// Signs as in Born & Wolf (7th ed., 1.5.2): at normal incidence r_p = −r_s. Time runs as e^(−j ω t): a field that is
+/// ahead has the smaller argument.
+pub fn amplitudes(cos_theta_i: f64, index: Complex) -> Polarized<Complex> {
+    let c = cos_theta_i.abs().min(1.0);
+    let normal = normal_index(c, index.re, index.im);
+    let square = index.square();
+    let incident = Complex::ONE * c;
+    Polarized {
+        s: (incident - normal) / (incident + normal),
+        p: (square * c - normal) / (square * c + normal),
+    }
+}
+
+/// The angle [rad] in [0, π) by which total reflection advances the field in the plane of incidence over the one
+/// perpendicular to it, for the relative index `eta` below 1: 2 atan(cosθ √(sin²θ − η²) / sin²θ), Born & Wolf
+/// (1.5, 60). `None` where the reflection is not total.
+pub fn total_reflection_advance(cos_theta_i: f64, eta: f64) -> Option<f64> {
+    let c = cos_theta_i.abs().min(1.0);
+    let square = -f64::refracted_square(eta, 0.0, c);
+    (square >= 0.0 && eta < 1.0).then(|| 2.0 * (c * square.sqrt() / ((1.0 - c) * (1.0 + c))).atan())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::float::safe_sqrt;
 
     /// |r|² from complex amplitudes in f64: an independent form of the same law.
-    fn amplitudes(cos_theta: f64, eta: f64, k: f64) -> Polarized<f64> {
+    fn reference(cos_theta: f64, eta: f64, k: f64) -> Polarized<f64> {
         let n = Complex::new(eta, k);
         let ci = Complex::ONE * cos_theta;
         // cosθt by the principal root in polar form.
@@ -185,7 +210,7 @@ mod tests {
     fn real_and_complex_forms_equal_the_amplitude_form_to_1e_6_in_f32() {
         for (eta, k) in INDICES.iter().flat_map(|eta| EXTINCTIONS.map(|k| (*eta, k))) {
             for c in cosines().map(|c| c as f32) {
-                let expected = amplitudes(f64::from(c), f64::from(eta), f64::from(k));
+                let expected = reference(f64::from(c), f64::from(eta), f64::from(k));
                 let near = |r: Polarized| {
                     let difference =
                         (f64::from(r.s) - expected.s).abs().max((f64::from(r.p) - expected.p).abs());
@@ -196,7 +221,7 @@ mod tests {
                     near(dielectric_polarized(c, eta));
                     assert!((f64::from(dielectric(c, eta)) - expected.unpolarized()).abs() < 1e-6);
                     // The same ray from the other side, where the index is 1/η: from its f32 cosine, as it is.
-                    let below = amplitudes(f64::from(c), 1.0 / f64::from(eta), 0.0);
+                    let below = reference(f64::from(c), 1.0 / f64::from(eta), 0.0);
                     let r = f64::from(dielectric(-c, eta));
                     assert!((r - below.unpolarized()).abs() < 1e-6, "{eta} {c}: {r} {below:?}");
                 }
@@ -208,7 +233,7 @@ mod tests {
     fn real_and_complex_forms_equal_the_amplitude_form_to_1e_12_in_f64() {
         for (eta, k) in INDICES.iter().flat_map(|eta| EXTINCTIONS.map(|k| (f64::from(*eta), f64::from(k)))) {
             for c in cosines() {
-                let expected = amplitudes(c, eta, k);
+                let expected = reference(c, eta, k);
                 let near = |r: Polarized<f64>| {
                     let difference = (r.s - expected.s).abs().max((r.p - expected.p).abs());
                     assert!(difference < 1e-12, "{eta} {k} {c}: {r:?} {expected:?}");
@@ -239,6 +264,38 @@ mod tests {
     }
 
     #[test]
+    fn total_reflection_advances_one_field_by_its_closed_form() {
+        for eta in [0.4, 1.0 / 1.51, 0.9] {
+            for c in cosines() {
+                let r = amplitudes(c, Complex::new(eta, 0.0));
+                match total_reflection_advance(c, eta) {
+                    Some(advance) => {
+                        assert!(
+                            (r.s.norm_squared() - 1.0).abs() < 1e-14
+                                && (r.p.norm_squared() - 1.0).abs() < 1e-14
+                        );
+                        assert!(((r.s / r.p).argument() - advance).abs() < 1e-12, "{eta} {c}");
+                    }
+                    None => assert!(r.s.im == 0.0 && r.s.norm_squared() < 1.0),
+                }
+            }
+        }
+        assert_eq!(total_reflection_advance(0.1, 1.5), None);
+    }
+
+    #[test]
+    fn two_reflections_in_a_fresnel_rhomb_turn_light_at_45_degrees_into_circular_light() {
+        let cos = 54.62_f64.to_radians().cos();
+        let advance = total_reflection_advance(cos, 1.0 / 1.51).unwrap().to_degrees();
+        assert!((advance - 45.0).abs() < 5e-3, "{advance}");
+        let r = amplitudes(cos, Complex::new(1.0 / 1.51, 0.0));
+        // Stokes parameters of equal fields s and p after both reflections: only the circular one is left.
+        let (s, p) = (r.s.square(), r.p.square());
+        let (linear, circular) = ((s.conjugate() * p).re, (s.conjugate() * p).im);
+        assert!(linear.abs() < 2e-4 && (circular.abs() - 1.0).abs() < 1e-7, "{linear} {circular}");
+    }
+
+    #[test]
     fn unpolarised_form_of_the_source_agrees() {
         // B (2.12), with ηi = 1.
         for eta in [0.7_f64, 1.33, 1.5, 2.4] {
@@ -266,33 +323,5 @@ mod tests {
             let tolerance = 1e-6 / ci;
             assert!((dielectric(ci, 1.5) - dielectric(-ct, 1.5)).abs() < tolerance, "{i}");
         }
-    }
-
-    #[test]
-    fn slab_transmittance_reproduces_the_checked_values() {
-        // T = (1 − r)² / (1 − r²) per polarisation, averaged last; no absorption.
-        for (degrees, expected) in
-            [(0.0_f32, 0.923_076_9), (45.0, 0.907_344), (60.0, 0.848_128), (75.0, 0.618_149)]
-        {
-            let r = dielectric_polarized(degrees.to_radians().cos(), 1.5);
-            let t = |r: f32| (1.0 - r) * (1.0 - r) / (1.0 - r * r);
-            assert!((0.5 * (t(r.s) + t(r.p)) - expected).abs() < 2e-6, "{degrees}");
-        }
-    }
-
-    #[test]
-    fn hemispherical_reflectance_has_its_closed_form() {
-        // r_ext(1.5) and r_int(1.5) = 1 − (1 − r_ext)/n²: ∫ 2 cosθ R dcosθ from either side.
-        let n = 200_000;
-        let (mut outside, mut inside) = (0.0_f64, 0.0_f64);
-        for i in 0..n {
-            let c = (i as f32 + 0.5) / n as f32;
-            outside += f64::from(2.0 * c * dielectric(c, 1.5)) / f64::from(n);
-            inside += f64::from(2.0 * c * dielectric(-c, 1.5)) / f64::from(n);
-        }
-        assert!(
-            (outside - 0.091_777_96).abs() < 1e-6 && (inside - 0.596_345_76).abs() < 1e-6,
-            "{outside} {inside}"
-        );
     }
 }

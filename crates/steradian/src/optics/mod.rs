@@ -5,14 +5,20 @@
 pub mod absorption;
 pub mod attenuation;
 pub mod complex;
+pub mod deviation;
 pub mod dispersion;
 pub mod films;
 pub mod fresnel;
+pub mod hemispherical;
 pub mod microfacet;
+pub mod multilayer;
 pub mod phase;
 pub mod real;
 pub mod refraction;
+pub mod shares;
+pub mod slab;
 
 pub use films::Film;
 pub use microfacet::TrowbridgeReitz;
 pub use phase::HenyeyGreenstein;
+pub use shares::Shares;

@@ -1,6 +1,7 @@
 //! Mirror and refracted directions. All directions point away from the interface.
 
 use super::fresnel::Crossing;
+use super::real::Real;
 use crate::math::Vec3;
 
 /// The mirror direction of `w` about the unit normal `n`: 2 (n·w) n − w, B (2.4).
@@ -27,11 +28,40 @@ pub fn refract(w: Vec3, n: Vec3, eta: f32) -> Option<Refracted> {
     Some(Refracted { w: crossing.refract(w, n)?, eta: crossing.eta })
 }
 
+/// The cosine of refraction behind an interface of relative index `eta` (far side over near side, above 0), from the
+/// cosine of incidence in [0, 1]: Snell's law, B (2.5). `None` for total reflection.
+pub fn refracted_cosine<T: Real>(cos_theta: T, eta: T) -> Option<T> {
+    let square = T::refracted_square(eta, T::ZERO, cos_theta);
+    (square > T::ZERO).then(|| square.sqrt() / eta)
+}
+
+/// The angle of incidence [rad] above which everything is reflected, asin η; `None` for an index of 1 or more.
+pub fn critical_angle(eta: f64) -> Option<f64> {
+    (eta < 1.0).then(|| eta.asin())
+}
+
+/// The angle of incidence [rad] at which no light polarised in the plane of incidence is reflected, atan η
+/// (Brewster 1815).
+pub fn brewster_angle(eta: f64) -> f64 {
+    eta.atan()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::warp;
     use proptest::prelude::*;
+
+    #[test]
+    fn glass_has_its_brewster_and_critical_angles() {
+        assert!((brewster_angle(1.5).to_degrees() - 56.309_93).abs() < 5e-6);
+        assert!((critical_angle(1.0 / 1.5).unwrap().to_degrees() - 41.810_31).abs() < 5e-6);
+        assert_eq!(critical_angle(1.0), None);
+        let cos = |degrees: f64| degrees.to_radians().cos();
+        assert!(refracted_cosine(cos(41.8103), 1.0 / 1.5).is_some());
+        assert_eq!(refracted_cosine(cos(41.8104), 1.0 / 1.5), None);
+        assert!((refracted_cosine(cos(30.0), 1.5).unwrap() - (1.0 - 1.0 / 9.0_f64).sqrt()).abs() < 1e-15);
+    }
 
     proptest! {
         #[test]
