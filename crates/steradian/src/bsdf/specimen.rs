@@ -43,6 +43,8 @@ pub enum Values {
     ClosedForm,
     /// Values are unbiased estimates, and the density is only an approximation for multiple importance sampling.
     Estimated,
+    /// Estimates that a named choice biases, so that values and samples disagree: it is shown and not judged.
+    Biased,
 }
 
 impl Claims {

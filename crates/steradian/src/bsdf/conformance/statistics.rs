@@ -9,6 +9,11 @@ pub(super) struct Moments {
 }
 
 impl Moments {
+    /// As after `n` zeros.
+    pub(super) fn zeros(n: u32) -> Self {
+        Self { n: u64::from(n), ..Self::default() }
+    }
+
     pub(super) fn add(&mut self, x: f64) {
         self.n += 1;
         let d = x - self.mean;
@@ -64,6 +69,25 @@ impl ChiSquared {
     }
 }
 
+/// Level of each of `tests` independent tests that together reject a true law with probability `level` (Šidák 1967).
+pub(super) fn sidak(level: f64, tests: u32) -> f64 {
+    -f64::exp_m1(f64::ln_1p(-level) / f64::from(tests.max(1)))
+}
+
+/// z with P(|Z| > z) = `p` for a standard normal Z, 0 < p < 1: bisection of Q(½, z²/2) = p.
+pub(super) fn two_sided_deviate(p: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 40.0_f64);
+    for _ in 0..60 {
+        let z = 0.5 * (low + high);
+        if upper_gamma(0.5, 0.5 * z * z) > p {
+            low = z;
+        } else {
+            high = z;
+        }
+    }
+    0.5 * (low + high)
+}
+
 /// Regularised upper incomplete gamma function Q(a, x) for a > 0, x ≥ 0: series below the mean, Lentz's
 /// continued fraction above it (Abramowitz & Stegun 6.5.29, 6.5.31).
 fn upper_gamma(a: f64, x: f64) -> f64 {
@@ -114,6 +138,17 @@ fn ln_gamma(mut x: f64) -> f64 {
 mod tests {
     use super::*;
     use statrs::distribution::ContinuousCDF;
+
+    #[test]
+    fn levels_and_deviates_agree_with_an_independent_library() {
+        let normal = statrs::distribution::Normal::standard();
+        for p in [0.5, 0.05, 1e-3, 1e-7] {
+            let z = two_sided_deviate(p);
+            assert!((2.0 * normal.sf(z) / p - 1.0).abs() < 1e-6, "{p}: {z}");
+        }
+        let each = sidak(0.01, 1000);
+        assert!((1.0 - (1.0 - each).powi(1000) - 0.01).abs() < 1e-12, "{each}");
+    }
 
     #[test]
     fn survival_of_chi_squared_agrees_with_an_independent_library() {
