@@ -221,7 +221,10 @@ impl<B: Base> Layered<B> {
 
     /// What holds for it.
     pub fn claims(&self) -> Claims {
-        Claims::ESTIMATED
+        match self.coat.weights {
+            ExitWeights::Pbrt4 if !self.coat.interface.is_specular() => Claims::BIASED,
+            ExitWeights::Pbrt4 | ExitWeights::Consistent => Claims::ESTIMATED,
+        }
     }
 
     /// Whether light that entered can leave into a continuum of directions.

@@ -55,6 +55,8 @@ impl Claims {
     pub const LOSSLESS: Self = Self { energy: Energy::Lossless { tolerance: 0.002 }, ..Self::CLOSED_FORM };
     /// An estimate by random walks.
     pub const ESTIMATED: Self = Self { values: Values::Estimated, ..Self::CLOSED_FORM };
+    /// The same, with values that a named choice biases.
+    pub const BIASED: Self = Self { values: Values::Biased, ..Self::CLOSED_FORM };
 
     /// The same claims with another one about energy.
     #[must_use]
@@ -66,6 +68,11 @@ impl Claims {
     #[must_use]
     pub const fn with_reciprocity(self, reciprocity: Reciprocity) -> Self {
         Self { reciprocity, ..self }
+    }
+
+    /// Whether a named choice biases the values.
+    pub fn has_named_bias(&self) -> bool {
+        self.values == Values::Biased
     }
 
     /// Whether values and densities are closed forms.

@@ -2,5 +2,6 @@
 
 pub mod plot;
 pub mod subject;
+pub mod verify;
 
 pub use subject::{Subject, UnknownMaterial};

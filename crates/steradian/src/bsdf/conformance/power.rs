@@ -20,6 +20,8 @@ pub struct Power {
     pub sampled: Answer,
     /// Standard errors of the sampled answer.
     pub error: Answer,
+    /// Standard errors of the sampled ρ + τ.
+    pub total_error: [f64; LANES],
     /// By quadrature of f cosθ and the power of discrete directions.
     pub integrated: Answer,
     /// By the function's own albedo.
@@ -125,6 +127,7 @@ impl<B: Scatterer> Bench<'_, B> {
             wi,
             sampled: Answer::from_fn(|side, lane| survey.by_sampling(side, lane).value),
             error: Answer::from_fn(|side, lane| survey.by_sampling(side, lane).error),
+            total_error: survey.total.map(|m| m.error()),
             integrated: Answer::from_fn(|side, lane| survey.by_quadrature(side, lane).value),
             own,
         };
@@ -228,7 +231,7 @@ impl<B: Scatterer> Bench<'_, B> {
     }
 
     /// What to expect of laws about values: a named bias breaks them.
-    fn of_values(&self) -> Expectation {
+    pub(super) fn of_values(&self) -> Expectation {
         match self.claims.values {
             Values::ClosedForm | Values::Estimated => Expectation::Holds,
             Values::Biased => Expectation::Reported,

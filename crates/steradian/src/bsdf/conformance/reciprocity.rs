@@ -65,7 +65,10 @@ impl<B: Scatterer> Bench<'_, B> {
                 self.worst_estimated_pair(comparison, index)
             };
             let (law, expectation) = match (comparison, self.claims.reciprocity) {
-                (Comparison::Adjoint, _) => (Law::Adjoint, Expectation::Holds),
+                (Comparison::Adjoint, _) => (Law::Adjoint, self.of_values()),
+                (_, Reciprocity::Exact) if self.claims.has_named_bias() => {
+                    (Law::Reciprocity, Expectation::Reported)
+                }
                 (_, Reciprocity::Exact) => (Law::Reciprocity, Expectation::Holds),
                 (_, Reciprocity::Reported) => (Law::Reciprocity, Expectation::Reported),
                 (_, Reciprocity::Broken) => (Law::Reciprocity, Expectation::Broken),
