@@ -20,6 +20,7 @@ Examples:
   steradian render scene.pbrt -o a.exr -o a.png    a scene of your own, to measure and to look at
   steradian render scene.pbrt --spp 16 --quiet     the same, fast and rough
   steradian check scene.pbrt                       everything that is wrong with it
+  steradian verify scene.pbrt --material paint     does it reflect more than arrives, is it reciprocal?
   steradian compare a.exr reference.exr            how far two pictures differ";
 
 #[derive(Debug, Subcommand)]
@@ -30,6 +31,8 @@ pub(crate) enum Command {
     Info(Inspect),
     /// Report every problem of a scene; the exit code says whether there was an error
     Check(Inspect),
+    /// Test whether materials obey the laws of scattering: those of a scene, else all built-in specimens
+    Verify(Verify),
     /// Compare two images: mean ratio, MSE, relMSE, FLIP, and a map of the error
     Compare(Compare),
 }
@@ -39,6 +42,51 @@ pub(crate) struct Inspect {
     /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Verify {
+    /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input [default: built-in specimens]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Verify this material only; may be repeated
+    #[arg(short, long, value_name = "NAME", requires = "scenes")]
+    pub(crate) material: Vec<String>,
+    /// Wavelengths to examine a scene's materials at, in nm [default: 440,520,600,680]
+    #[arg(long, value_name = "NM,...", value_delimiter = ',', value_parser = parse_wavelength, requires = "scenes")]
+    pub(crate) wavelengths: Vec<f32>,
+    /// Accept materials that break a law as they declare; built-in specimens are judged so always
+    #[arg(long)]
+    pub(crate) declared: bool,
+    /// How thoroughly to examine
+    #[arg(long, value_enum, default_value_t = Effort::Normal)]
+    pub(crate) effort: Effort,
+    /// Seed of the random numbers; the same seed gives the same report
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(crate) threads: Option<u32>,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write a page with plots of reflectance and transmittance
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+    /// Say nothing while at work
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// How thoroughly materials are examined.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// Few angles and samples: gross faults
+    Quick,
+    /// Angles from normal to grazing, a hundred thousand samples at each
+    Normal,
+    /// Eight times the samples
+    Thorough,
 }
 
 #[derive(Args, Debug)]
@@ -102,6 +150,14 @@ fn parse_resolution(text: &str) -> Result<[u32; 2], String> {
         Some([w, h]) if (1..=65_536).contains(&w) && (1..=65_536).contains(&h) => Ok([w, h]),
         Some(_) => Err("width and height must lie between 1 and 65536".to_owned()),
         None => Err("expected a width and a height, such as 1280x720".to_owned()),
+    }
+}
+
+fn parse_wavelength(text: &str) -> Result<f32, String> {
+    match text.trim().trim_end_matches("nm").trim().parse() {
+        Ok(nm) if (200.0..=2500.0).contains(&nm) => Ok(nm),
+        Ok(_) => Err("wavelengths must lie between 200 and 2500 nm".to_owned()),
+        Err(_) => Err("expected a wavelength in nm, such as 550".to_owned()),
     }
 }
 

@@ -7,6 +7,7 @@ mod load;
 mod output;
 mod progress;
 mod render;
+mod verify;
 
 use args::{Cli, Command};
 use clap::Parser as _;
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => inspect::info(&arguments),
         Command::Check(arguments) => inspect::check(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
     };
     match outcome {
