@@ -30,8 +30,8 @@ def number(x, digits=7):
     return f"{x:.{digits}g}"
 
 
-def write_spd(name, about, pairs):
-    lines = [f"# {line}" for line in [*about, f"Written by {SCRIPT}.", "wavelength [nm], value"]]
+def write_spd(name, about, pairs, script=SCRIPT):
+    lines = [f"# {line}" for line in [*about, f"Written by {script}.", "wavelength [nm], value"]]
     lines += [f"{number(l)} {number(v)}" for l, v in pairs]
     (SPECTRA / f"{name}.spd").write_text("\n".join(lines) + "\n")
 

@@ -9,7 +9,7 @@ pub const LINE_F: f32 = 486.1327;
 /// The hydrogen C line [nm], the red one of an Abbe number.
 pub const LINE_C: f32 = 656.2725;
 
-/// Cauchy's series n(λ) = A + B/λ² + C/λ⁴ (Cauchy 1836), for transparent media far from their absorption bands.
+/// Cauchy's series n(λ) = A + B/λ² + C/λ⁴ + D/λ⁶ (Cauchy 1836), for transparent media far from their absorption bands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cauchy {
     /// The index at infinite wavelength.
@@ -18,6 +18,8 @@ pub struct Cauchy {
     pub b: f32,
     /// Coefficient of λ⁻⁴ [nm⁴].
     pub c: f32,
+    /// Coefficient of λ⁻⁶ [nm⁶].
+    pub d: f32,
 }
 
 impl Cauchy {
@@ -25,7 +27,79 @@ impl Cauchy {
     #[inline]
     pub fn at(&self, lambda_nm: f32) -> f32 {
         let inverse = (lambda_nm * lambda_nm).recip();
-        self.a + (self.b + self.c * inverse) * inverse
+        self.a + (self.b + (self.c + self.d * inverse) * inverse) * inverse
+    }
+}
+
+/// One resonance of a medium: a band of absorption that bends the index around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resonance {
+    /// B, dimensionless.
+    pub strength: f32,
+    /// The vacuum wavelength λ₀ of the resonance [nm].
+    pub wavelength: f32,
+}
+
+/// Sellmeier's formula n² = 1 + A + Σ B λ²/(λ² − λ₀²) (Sellmeier 1871), for transparent media between their resonances.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sellmeier {
+    /// A, the share of resonances too far off to be seen; zero in the original form.
+    pub constant: f32,
+    /// The resonances.
+    pub terms: &'static [Resonance],
+}
+
+impl Sellmeier {
+    /// The index at `lambda_nm` [nm], above 0 and not at a resonance.
+    pub fn at(&self, lambda_nm: f32) -> f32 {
+        // (λ₀/λ)² instead of λ²: no overflow, and no cancellation but near the resonance itself.
+        let sum: f32 = self
+            .terms
+            .iter()
+            .map(|t| {
+                let ratio = t.wavelength / lambda_nm;
+                t.strength / ((1.0 - ratio) * (1.0 + ratio))
+            })
+            .sum();
+        (1.0 + self.constant + sum).sqrt()
+    }
+}
+
+/// A closed form of the index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Formula {
+    /// Sum of resonances.
+    Sellmeier(Sellmeier),
+    /// Power series.
+    Cauchy(Cauchy),
+}
+
+/// A formula that was fitted to measurements, with the range that it was fitted in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dispersion {
+    /// Name of the medium, as scene files call its table.
+    pub name: &'static str,
+    /// The formula.
+    pub formula: Formula,
+    /// First and last vacuum wavelength [nm] of the fit.
+    pub range: (f32, f32),
+    /// The medium and the publication of the fit.
+    pub reference: &'static str,
+}
+
+impl Dispersion {
+    /// The index at `lambda_nm` [nm]; `None` outside the range of the fit.
+    pub fn at(&self, lambda_nm: f32) -> Option<f32> {
+        let (first, last) = self.range;
+        (first..=last).contains(&lambda_nm).then(|| match self.formula {
+            Formula::Sellmeier(formula) => formula.at(lambda_nm),
+            Formula::Cauchy(formula) => formula.at(lambda_nm),
+        })
+    }
+
+    /// The Abbe number V_d = (n_d − 1)/(n_F − n_C); `None` if a line is outside the range.
+    pub fn abbe_number(&self) -> Option<f32> {
+        Some((self.at(LINE_D)? - 1.0) / (self.at(LINE_F)? - self.at(LINE_C)?))
     }
 }
 
@@ -38,7 +112,7 @@ pub fn from_abbe(n_d: f32, v_d: f32) -> Cauchy {
     let inverse_square = |lambda: f32| 1.0 / (f64::from(lambda) * f64::from(lambda));
     let spread = if v_d > 0.0 { (f64::from(n_d) - 1.0) / f64::from(v_d) } else { 0.0 };
     let b = spread / (inverse_square(LINE_F) - inverse_square(LINE_C));
-    Cauchy { a: (f64::from(n_d) - b * inverse_square(LINE_D)) as f32, b: b as f32, c: 0.0 }
+    Cauchy { a: (f64::from(n_d) - b * inverse_square(LINE_D)) as f32, b: b as f32, c: 0.0, d: 0.0 }
 }
 
 #[cfg(test)]
@@ -68,7 +142,7 @@ mod tests {
     #[test]
     fn no_abbe_number_means_no_dispersion() {
         for v_d in [f32::INFINITY, 0.0, -3.0, f32::NAN] {
-            assert_eq!(from_abbe(1.5, v_d), Cauchy { a: 1.5, b: 0.0, c: 0.0 });
+            assert_eq!(from_abbe(1.5, v_d), Cauchy { a: 1.5, b: 0.0, c: 0.0, d: 0.0 });
         }
     }
 }

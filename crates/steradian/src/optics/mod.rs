@@ -10,6 +10,7 @@ pub mod dispersion;
 pub mod films;
 pub mod fresnel;
 pub mod hemispherical;
+pub mod indices;
 pub mod microfacet;
 pub mod multilayer;
 pub mod phase;
