@@ -5,7 +5,7 @@ use crate::args;
 use crate::load::{self, Verbosity};
 use crate::output::{note, print};
 use std::fmt::Write as _;
-use steradian::scene::{Disk, RenderJob, Severity};
+use steradian::scene::{Disk, IntegratorSettings, RenderJob, Severity};
 
 /// Describes the compiled scene; what is unsupported or doubtful is part of the description.
 pub(crate) fn info(arguments: &args::Inspect) -> Result<(), Failure> {
@@ -42,7 +42,11 @@ fn describe(job: &RenderJob) -> String {
     };
     let [w, h] = job.film.resolution;
     line("picture", format!("{w} × {h}, {} samples per pixel, {:?}", job.sampling.spp, job.sampling.kind));
-    line("integrator", format!("path, at most {} bounces", job.path.max_depth));
+    let integrator = match &job.integrator {
+        IntegratorSettings::Path(p) => format!("path, at most {} bounces", p.max_depth),
+        IntegratorSettings::Classic(_) => job.integrator.name().to_owned(),
+    };
+    line("integrator", integrator);
     let stats = scene.accel().stats();
     let b = scene.accel().bounds();
     if !b.is_empty() {

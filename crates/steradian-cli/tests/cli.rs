@@ -259,7 +259,8 @@ fn what_cannot_be_read_or_written_is_said_before_rendering() {
     render(&["-o", "gone/a.exr"]).failed("error: gone/a.exr: the folder gone does not exist");
     render(&["-o", "folder.exr"]).failed("error: folder.exr is a folder");
     render(&["--integrator", "pth"]).failed("error: unknown integrator \"pth\"; did you mean \"path\"?");
-    render(&["--integrator", "bdpt"]).failed("error: unknown integrator \"bdpt\"; known is \"path\"");
+    render(&["--integrator", "bdpt"])
+        .failed("error: unknown integrator \"bdpt\"; known are \"path\" and \"classic\"");
     // No file system has names as long as this.
     let said = render(&["-o", &format!("{}.exr", "a".repeat(5000))]);
     assert!(

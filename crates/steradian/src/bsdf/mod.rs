@@ -35,7 +35,7 @@ pub use varnished::VarnishedDiffuse;
 
 use crate::math::{LocalDir, Vec2};
 use crate::spectrum::Sampled;
-use crate::units::{PdfSolidAngle, PerSteradian};
+use crate::units::{PdfSolidAngle, PerSteradian, Unitless};
 
 /// How a surface scatters light at one point and at one path's wavelengths.
 #[derive(Clone, Copy, Debug)]
@@ -215,6 +215,12 @@ impl<'a> Bsdf<'a> {
             | Self::Measured(_) => {}
         }
         self
+    }
+
+    /// The ambient reflection coefficient ra of A (36), where it is stated apart from how light is scattered: by legacy
+    /// shading alone.
+    pub fn legacy_ambient(&self) -> Option<Sampled<Unitless>> {
+        if let Self::LegacyPhong(b) = self { Some(b.ambient) } else { None }
     }
 
     /// What holds for this scattering function: what the conformance suite tests when a user asks.

@@ -3,9 +3,10 @@
 
 use super::contract::{FirstSurface, Integrator, Tally, VisibleSurface};
 use super::mis::power_heuristic;
+use super::vertex::{albedo, reference};
 use crate::bsdf::{Lobe, Mode, Side};
 use crate::material::SurfaceBsdf;
-use crate::math::{Dir, Ray, SurfacePoint, Vec2};
+use crate::math::{Dir, Ray};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 use crate::shape::ReferencePoint;
@@ -139,10 +140,6 @@ impl Integrator for PathTracer {
     }
 }
 
-fn reference(point: &SurfacePoint, bsdf: &SurfaceBsdf) -> ReferencePoint {
-    ReferencePoint { p: point.p, ng: Some(point.ng), ns: Some(bsdf.n()), time: point.time }
-}
-
 /// One light sample, A (31): radiance that reaches the point from a light and is scattered towards `wo`.
 fn sample_direct(
     scene: &Scene,
@@ -172,20 +169,4 @@ fn sample_direct(
             f.reflect(light.radiance, cos, density) * power_heuristic(density, other)
         }
     }
-}
-
-/// Directional-hemispherical reflectance, B (2.14), from a fixed set of samples (fixed, so that a layer of it has no noise
-/// beyond that of its camera rays).
-fn albedo(bsdf: &SurfaceBsdf, wo: Dir) -> Sampled<Unitless> {
-    const N: u32 = 16;
-    let mut sum = Sampled::ZERO;
-    for i in 0..N {
-        // The R2 sequence (Roberts 2018): low-discrepancy without tables.
-        let u = Vec2::new(0.754_877_7, 0.569_840_3) * (i as f32 + 0.5);
-        let uc = (i as f32 + 0.5) / N as f32;
-        if let Some(s) = bsdf.sample(wo, uc, u.fract(), Mode::Radiance) {
-            sum += s.weight;
-        }
-    }
-    sum / N as f32
 }

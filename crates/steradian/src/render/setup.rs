@@ -6,7 +6,7 @@ use crate::film::{
 };
 use crate::image::ImageError;
 use crate::math::Vec2;
-use crate::scene::{RenderJob, desc};
+use crate::scene::{IntegratorSettings, RenderJob, desc};
 use crate::units::Kelvin;
 
 /// Why a job cannot be rendered.
@@ -78,8 +78,7 @@ fn bounds(film: &desc::FilmDesc) -> PixelBounds {
 pub(super) fn metadata(job: &RenderJob, spp: u32) -> Vec<(&'static str, String)> {
     let mut list = vec![
         ("software", format!("Steradian {}", env!("CARGO_PKG_VERSION"))),
-        ("renderer.integrator", "path".to_owned()),
-        ("renderer.maxDepth", job.path.max_depth.to_string()),
+        ("renderer.integrator", job.integrator.name().to_owned()),
         ("renderer.samplesPerPixel", spp.to_string()),
         ("renderer.sampler", format!("{:?}", job.sampling.kind)),
         ("renderer.filter", format!("{:?} radius {:?}", job.filter.kind, job.filter.radius)),
@@ -93,8 +92,11 @@ pub(super) fn metadata(job: &RenderJob, spp: u32) -> Vec<(&'static str, String)>
     if job.scene.materials().has_inconsistent_coats() {
         list.push(("bias.layeredWeights", "pbrt-v4".to_owned()));
     }
-    if job.path.regularize {
-        list.push(("bias.regularize", "true".to_owned()));
+    if let IntegratorSettings::Path(path) = &job.integrator {
+        list.push(("renderer.maxDepth", path.max_depth.to_string()));
+        if path.regularize {
+            list.push(("bias.regularize", "true".to_owned()));
+        }
     }
     list
 }

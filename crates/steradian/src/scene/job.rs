@@ -3,6 +3,7 @@
 use super::compiled::Scene;
 use super::desc::{FilmDesc, FilterDesc};
 use crate::color::ColorSpace;
+use crate::light::Light;
 use crate::math::Transform;
 use crate::sampler::SamplerKind;
 
@@ -19,8 +20,8 @@ pub struct RenderJob {
     pub filter: FilterDesc,
     /// Sample points.
     pub sampling: Sampling,
-    /// The path tracer's settings.
-    pub path: PathSettings,
+    /// How radiance is found.
+    pub integrator: IntegratorSettings,
     /// From the space in which rays are traced to the scene's world.
     pub world_from_render: Transform,
     /// Length of a scene unit [m].
@@ -51,6 +52,34 @@ pub enum Jitter {
     On,
     /// Fixed at its middle.
     Off,
+}
+
+/// How radiance is found.
+#[derive(Clone, Debug)]
+pub enum IntegratorSettings {
+    /// By tracing paths.
+    Path(PathSettings),
+    /// By legacy shading, A (34)–(40).
+    Classic(ClassicSettings),
+}
+
+impl IntegratorSettings {
+    /// What it is, for people and for the picture's metadata.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Path(_) => "path",
+            Self::Classic(_) => "classic (legacy shading, not light transport)",
+        }
+    }
+}
+
+/// Settings of the legacy shading.
+#[derive(Clone, Debug)]
+pub struct ClassicSettings {
+    /// Uniform surroundings, whose radiance is Ia of A (36).
+    pub ambient: Option<Light>,
+    /// Whether surfaces cast shadows.
+    pub shadows: bool,
 }
 
 /// Settings of the path tracer.

@@ -28,7 +28,7 @@ pub mod overrides;
 
 pub use compile::{compile, compile_with_tables};
 pub use compiled::{Scene, SceneHit, SceneLightSample, ShapeAttributes};
-pub use job::{Jitter, PathSettings, RenderJob, Sampling};
+pub use job::{ClassicSettings, IntegratorSettings, Jitter, PathSettings, RenderJob, Sampling};
 pub use overrides::{OverrideError, Overrides};
 
 /// The Cornell box with its measured reflectances and emission, as pbrt-v4 text.

@@ -1,6 +1,6 @@
 //! Settings given outside the scene, which win over the scene's own.
 
-use super::desc::{IntegratorKind, MAX_SAMPLES, PathDesc, SamplerKind, SceneDesc};
+use super::desc::{ClassicDesc, IntegratorKind, MAX_SAMPLES, PathDesc, SamplerKind, SceneDesc};
 use super::diagnostic::nearest;
 
 /// What a user may change without touching the scene; `None` leaves the scene's value.
@@ -42,13 +42,13 @@ pub enum OverrideError {
 
 fn hint(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(
-        || format!("; known is \"{}\"", INTEGRATORS.join("\", \"")),
+        || format!("; known are \"{}\"", INTEGRATORS.join("\" and \"")),
         |s| format!("; did you mean \"{s}\"?"),
     )
 }
 
 /// Integrators that can be asked for by name.
-const INTEGRATORS: [&str; 1] = ["path"];
+const INTEGRATORS: [&str; 2] = ["path", "classic"];
 
 /// Bounces where neither the scene nor the user says (pbrt's default).
 const DEFAULT_DEPTH: u32 = 5;
@@ -93,15 +93,25 @@ impl Overrides {
             desc.film.pixel_bounds = None;
         }
         if let Some(name) = &self.integrator {
-            if name != "path" {
-                let suggestion = nearest(name, INTEGRATORS).map(str::to_owned);
-                return Err(OverrideError::UnknownIntegrator { name: name.clone(), suggestion });
+            match name.as_str() {
+                "path" => {
+                    desc.integrator.kind = IntegratorKind::Path(PathDesc {
+                        max_depth: max_depth(&mut desc.integrator.kind).map_or(DEFAULT_DEPTH, |d| *d),
+                        regularize: false,
+                        light_sampler: None,
+                    });
+                }
+                "classic" => {
+                    // The scene's own surroundings stay.
+                    if !matches!(desc.integrator.kind, IntegratorKind::Classic(_)) {
+                        desc.integrator.kind = IntegratorKind::Classic(ClassicDesc::default());
+                    }
+                }
+                _ => {
+                    let suggestion = nearest(name, INTEGRATORS).map(str::to_owned);
+                    return Err(OverrideError::UnknownIntegrator { name: name.clone(), suggestion });
+                }
             }
-            desc.integrator.kind = IntegratorKind::Path(PathDesc {
-                max_depth: max_depth(&mut desc.integrator.kind).map_or(DEFAULT_DEPTH, |d| *d),
-                regularize: false,
-                light_sampler: None,
-            });
         }
         if let (Some(depth), Some(field)) = (self.max_depth, max_depth(&mut desc.integrator.kind)) {
             *field = depth;
@@ -110,7 +120,7 @@ impl Overrides {
     }
 }
 
-/// The field that limits path length; ambient occlusion has none.
+/// The field that limits path length; what traces no paths has none.
 fn max_depth(kind: &mut IntegratorKind) -> Option<&mut u32> {
     match kind {
         IntegratorKind::Path(p) | IntegratorKind::VolPath(p) => Some(&mut p.max_depth),
@@ -121,6 +131,6 @@ fn max_depth(kind: &mut IntegratorKind) -> Option<&mut u32> {
         | IntegratorKind::Bdpt { max_depth, .. }
         | IntegratorKind::Mlt { max_depth, .. }
         | IntegratorKind::Sppm { max_depth } => Some(max_depth),
-        IntegratorKind::AmbientOcclusion => None,
+        IntegratorKind::AmbientOcclusion | IntegratorKind::Classic(_) => None,
     }
 }

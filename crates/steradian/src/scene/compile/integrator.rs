@@ -1,10 +1,12 @@
 //! Which integrator renders what the scene asks for, and what is said about it.
 
+use crate::light::Light;
 use crate::light::Selection;
-use crate::scene::desc::{IntegratorDesc, IntegratorKind, LightSamplerKind};
+use crate::material::{Declared, LegacyPhongMaterial};
+use crate::math::{AnimatedTransform, Transform};
+use crate::scene::desc::{IntegratorDesc, IntegratorKind, LightDesc, LightKind, LightSamplerKind, SceneDesc};
 use crate::scene::diagnostic::{Diagnostic, Diagnostics};
-use crate::scene::job::PathSettings;
-use crate::scene::source::Span;
+use crate::scene::job::{ClassicSettings, IntegratorSettings, PathSettings};
 
 /// What decides whether a path tracer misses light that another integrator would find.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,13 +17,57 @@ pub(super) struct CausticRisk {
     pub(super) specular_surfaces: bool,
 }
 
-/// Settings of the path tracer for any integrator that it can stand in for. `scene` is the place of what nobody stated.
+/// The uniform surroundings of legacy shading, as a light.
+pub(super) fn surroundings(desc: &IntegratorDesc) -> Option<LightDesc> {
+    let IntegratorKind::Classic(classic) = &desc.kind else { return None };
+    let ambient = classic.ambient.as_ref()?;
+    Some(LightDesc {
+        kind: LightKind::UniformInfinite { radiance: ambient.radiance.clone(), illuminance: None },
+        scale: ambient.scale,
+        normalization: ambient.normalization,
+        world_from_light: AnimatedTransform::fixed(Transform::IDENTITY),
+        medium: None,
+        span: ambient.radiance.span,
+    })
+}
+
+/// Settings of the integrator that renders the scene.
 pub(super) fn choose(
-    desc: &IntegratorDesc,
-    scene: Span,
+    scene: &SceneDesc,
     risk: CausticRisk,
+    ambient: Option<Light>,
     diagnostics: &mut Diagnostics,
-) -> PathSettings {
+) -> IntegratorSettings {
+    if let IntegratorKind::Classic(classic) = &scene.integrator.kind {
+        report_lights_left_out(scene, diagnostics);
+        return IntegratorSettings::Classic(ClassicSettings { ambient, shadows: classic.shadows });
+    }
+    for material in scene.materials.iter().filter(|m| m.class.name == LegacyPhongMaterial::CLASS) {
+        let message = "material \"phong\" is legacy shading, not a BRDF: paths through it may gain light, and depend on their direction";
+        diagnostics.push(Diagnostic::notice(material.span, message).with_help(
+            "integrator \"classic\" shades it as its text does; material \"modifiedphong\" is the BRDF",
+        ));
+    }
+    IntegratorSettings::Path(path(scene, risk, diagnostics))
+}
+
+/// Legacy shading sums over lights that shine from one direction each, A (28).
+fn report_lights_left_out(scene: &SceneDesc, diagnostics: &mut Diagnostics) {
+    let extended = |kind: &LightKind| {
+        matches!(kind, LightKind::UniformInfinite { .. } | LightKind::ImageInfinite { .. })
+    };
+    let skies = scene.lights.iter().filter(|l| extended(&l.kind)).map(|l| l.span);
+    for span in skies.chain(scene.area_lights.iter().map(|l| l.span)) {
+        diagnostics.push(
+            Diagnostic::notice(span, "integrator \"classic\" leaves out lights that have an extent")
+                .with_help("it knows point, spot and distant lights, and its own \"spectrum ambient\""),
+        );
+    }
+}
+
+/// Settings of the path tracer for any integrator that it can stand in for.
+fn path(scene: &SceneDesc, risk: CausticRisk, diagnostics: &mut Diagnostics) -> PathSettings {
+    let desc = &scene.integrator;
     let substitute = |name: &str, max_depth: u32, regularize: bool, diagnostics: &mut Diagnostics| {
         let mut message = format!("integrator \"{name}\" is rendered with \"path\"");
         if risk.delta_lights && risk.specular_surfaces {
@@ -35,7 +81,7 @@ pub(super) fn choose(
     match desc.kind {
         IntegratorKind::Path(p) => PathSettings { max_depth: p.max_depth, regularize: p.regularize },
         // The format's default, which nobody asked for by name, is nothing to remark on.
-        IntegratorKind::VolPath(p) if desc.span == scene => {
+        IntegratorKind::VolPath(p) if desc.span == scene.span => {
             PathSettings { max_depth: p.max_depth, regularize: p.regularize }
         }
         // Without media it is the same estimator.
@@ -63,6 +109,8 @@ pub(super) fn choose(
             );
             PathSettings { max_depth: 0, regularize: false }
         }
+        // Traces no paths.
+        IntegratorKind::Classic(_) => PathSettings { max_depth: 0, regularize: false },
     }
 }
 

@@ -70,18 +70,20 @@ pub fn compile_with_tables(
         }
     }
     lights.extend(desc.lights.iter().filter_map(|d| compiler.light(d)));
+    let ambient = integrator::surroundings(&desc.integrator).and_then(|d| compiler.light(&d));
 
     let TextureCompiler { textures, spectra: _, diagnostics, .. } = textures;
     let risk = CausticRisk {
         delta_lights: lights.iter().any(Light::is_delta),
         specular_surfaces: desc.materials.iter().any(|m| m.class.role == Role::Specular),
     };
-    let path = integrator::choose(&desc.integrator, desc.span, risk, diagnostics);
+    let no_light = desc.lights.is_empty() && set.emitters.is_empty() && ambient.is_none();
+    let integrator = integrator::choose(desc, risk, ambient, diagnostics);
     let selection = integrator::selection(&desc.integrator, diagnostics);
     let accel =
         Accel::build(&set.shapes, &set.layout).map_err(|e| set.report(&e, desc.span, diagnostics)).ok();
     // A light that was refused has an error already.
-    if desc.lights.is_empty() && set.emitters.is_empty() {
+    if no_light {
         diagnostics.warning(desc.span, "the scene has no light: the picture will be black");
     }
     let (camera, accel) = (camera?, accel?);
@@ -115,7 +117,7 @@ pub fn compile_with_tables(
             pixel_jitter: jitter(options.disable_pixel_jitter),
             wavelength_jitter: jitter(options.disable_wavelength_jitter),
         },
-        path,
+        integrator,
         world_from_render: render_from_world.inverse(),
         meters_per_unit: options.meters_per_unit,
         scene_hash: desc.content_hash,

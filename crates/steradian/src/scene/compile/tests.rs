@@ -150,3 +150,26 @@ fn a_constant_texture_costs_no_more_than_its_value() {
     assert_eq!(scene.attributes[0].alpha, crate::texture::FloatInput::Constant(1.0));
     assert!(!scene.materials.needs_footprint(scene.attributes[0].material));
 }
+
+#[test]
+fn legacy_shading_says_what_it_leaves_out() {
+    let files = MemoryFiles::new();
+    let shown = |integrator: &str, world: &str| {
+        let text = format!("Integrator \"{integrator}\"\nWorldBegin\n{world}\n");
+        let input = Input::Text { name: "test.pbrt", bytes: text.as_bytes(), base: Path::new("") };
+        let Imported { scene, sources, mut diagnostics } = import(&[input], &files);
+        scene.and_then(|d| super::compile(d, &files, &mut diagnostics)).expect("no error");
+        diagnostics.display(&sources).to_string()
+    };
+    let sky = "LightSource \"infinite\" AreaLightSource \"diffuse\" Shape \"sphere\"";
+    let text = shown("classic", sky);
+    assert_eq!(text.matches("leaves out lights that have an extent").count(), 2, "{text}");
+    assert!(text.contains("test.pbrt:3:1") && text.contains("test.pbrt:3:24"), "{text}");
+    assert_eq!(shown("path", sky), "");
+    let phong = "Material \"phong\" Shape \"sphere\" LightSource \"point\"";
+    assert!(shown("path", phong).contains("legacy shading, not a BRDF"), "{}", shown("path", phong));
+    assert_eq!(shown("classic", phong), "");
+    // Surroundings are light.
+    let ambient = "classic\" \"spectrum ambient\" [ 400 1 700 1 ] #";
+    assert_eq!(shown(ambient, "Shape \"sphere\""), "");
+}

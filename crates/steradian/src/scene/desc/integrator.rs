@@ -1,9 +1,11 @@
 //! The integrator as the scene states it.
 
+use super::light::Normalization;
+use super::value::SpectrumDesc;
 use crate::scene::source::Span;
 
 /// The integrator.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct IntegratorDesc {
     /// The algorithm.
     pub kind: IntegratorKind,
@@ -12,7 +14,7 @@ pub struct IntegratorDesc {
 }
 
 /// The algorithms; `max_depth` counts scattering events (5), defaults in parentheses.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum IntegratorKind {
     /// Path tracing of surfaces.
     Path(PathDesc),
@@ -59,6 +61,8 @@ pub enum IntegratorKind {
     },
     /// Ambient occlusion.
     AmbientOcclusion,
+    /// Legacy shading, A (34)–(40).
+    Classic(ClassicDesc),
 }
 
 /// Parameters of the path tracers.
@@ -70,6 +74,26 @@ pub struct PathDesc {
     pub regularize: bool,
     /// How lights are chosen; `None` where the scene does not say (by power; pbrt-v4: bvh).
     pub light_sampler: Option<LightSamplerKind>,
+}
+
+/// Parameters of the legacy shading.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClassicDesc {
+    /// Radiance Ia of the uniform surroundings; `None` where there are none.
+    pub ambient: Option<AmbientDesc>,
+    /// Whether what stands between a surface and a light matters (false: the text knows no shadows).
+    pub shadows: bool,
+}
+
+/// Uniform surroundings, A (36).
+#[derive(Clone, Debug, PartialEq)]
+pub struct AmbientDesc {
+    /// Their radiance.
+    pub radiance: SpectrumDesc,
+    /// Factor on it (1).
+    pub scale: f32,
+    /// How amounts are meant.
+    pub normalization: Normalization,
 }
 
 /// How lights are chosen for sampling.

@@ -37,8 +37,8 @@ impl Importer<'_> {
             Entity::Integrator => {
                 let read = |args: &mut Args<'_>| integrator::integrator(class, span, args);
                 let integrator = self.setting("integrator", class, params, read);
-                replace(self.integrator.map(|i| i.span), span, "Integrator", self);
-                self.integrator = integrator.or(self.integrator);
+                replace(self.integrator.as_ref().map(|i| i.span), span, "Integrator", self);
+                self.integrator = integrator.or(self.integrator.take());
             }
             Entity::Accelerator => {
                 let known =

@@ -1,7 +1,11 @@
 //! Integrator and accelerator classes.
 
 use super::args::Args;
-use crate::scene::desc::{IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc};
+use super::light::normalization;
+use super::spectrum::Role;
+use crate::scene::desc::{
+    AmbientDesc, ClassicDesc, IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc,
+};
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
@@ -17,6 +21,7 @@ const CLASSES: &[&str] = &[
     "sppm",
     "ambientocclusion",
     "function",
+    "classic",
 ];
 const V3_CLASSES: &[&str] = &["directlighting", "whitted", "ao"];
 const DEPTHS: std::ops::RangeInclusive<u32> = 0..=i32::MAX as u32;
@@ -75,6 +80,7 @@ pub(super) fn integrator(class: &Text, directive: Span, args: &mut Args<'_>) -> 
             args.positive("maxdistance", f32::INFINITY);
             IntegratorKind::AmbientOcclusion
         }
+        "classic" => IntegratorKind::Classic(classic(class, args)),
         "function" => {
             args.unsupported_class("integrator", class);
             return None;
@@ -99,6 +105,16 @@ fn path(args: &mut Args<'_>) -> PathDesc {
         regularize: args.bool("regularize", false),
         light_sampler: args.choice("lightsampler", None, &samplers),
     }
+}
+
+fn classic(class: &Text, args: &mut Args<'_>) -> ClassicDesc {
+    let (scale, normalization) = (args.non_negative("scale", 1.0), normalization(class, args));
+    let ambient = args.spectrum_opt("ambient", Role::Illuminant).map(|radiance| AmbientDesc {
+        radiance,
+        scale,
+        normalization,
+    });
+    ClassicDesc { ambient, shadows: args.bool("shadows", false) }
 }
 
 /// Checks the parameters of an accelerator class, whose choice is the renderer's; `None` when it is unknown (and

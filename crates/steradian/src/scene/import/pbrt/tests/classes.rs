@@ -143,6 +143,12 @@ fn integrators_and_accelerators() {
     assert_eq!(kind(sppm), IntegratorKind::Sppm { max_depth: 5 });
     let ao = "\"ambientocclusion\" \"bool cossample\" false \"float maxdistance\" 2";
     assert_eq!(kind(ao), IntegratorKind::AmbientOcclusion);
+    assert_eq!(kind("\"classic\" \"float scale\" 2"), IntegratorKind::Classic(ClassicDesc::default()));
+    let classic = "\"classic\" \"spectrum ambient\" [ 400 1 700 1 ] \"float scale\" 2 \"string unit\" \"radiance\" \"bool shadows\" true";
+    let IntegratorKind::Classic(ClassicDesc { ambient: Some(ambient), shadows: true }) = kind(classic) else {
+        panic!("{:?}", kind(classic))
+    };
+    assert_eq!((ambient.scale, ambient.normalization), (2.0, Normalization::Absolute));
     scene("Accelerator \"bvh\" \"string splitmethod\" \"hlbvh\" \"integer maxnodeprims\" 2 WorldBegin");
     scene("Accelerator \"kdtree\" \"integer intersectcost\" 5 \"float emptybonus\" .5 WorldBegin");
 }
