@@ -9,6 +9,7 @@ pub mod contract;
 mod cosine_lobe;
 pub mod dielectric;
 pub mod diffuse;
+pub mod interface;
 pub mod layered;
 pub mod legacy_phong;
 pub mod measured;
@@ -24,6 +25,7 @@ pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
+pub use interface::Interface;
 pub use layered::{Coat, ExitWeights, Layered};
 pub use legacy_phong::LegacyPhong;
 pub use measured::{Measured, MeasuredTable};
@@ -150,6 +152,19 @@ impl<'a> Bsdf<'a> {
             // Towards sensors, weights are ratios of power.
             Albedo::by_sampling(|uc, u| self.sample(wi, uc, u, Mode::Importance))
         })
+    }
+
+    /// The interface that light meets first, without any film; `None` where there is no single one.
+    pub fn interface(&self) -> Option<Interface> {
+        match self {
+            Self::Conductor(b) => Some(Interface { eta: b.eta, k: b.k }),
+            Self::Dielectric(b) => Some(Interface::clear(b.eta)),
+            Self::ThinDielectric(b) => Some(Interface::clear(b.eta)),
+            Self::VarnishedDiffuse(b) => Some(Interface::clear(b.layers().coat.interface.eta)),
+            Self::CoatedDiffuse(b) => Some(Interface::clear(b.coat.interface.eta)),
+            Self::CoatedConductor(b) => Some(Interface::clear(b.coat.interface.eta)),
+            _ => None,
+        }
     }
 
     /// Which continuous lobes are present.

@@ -18,8 +18,6 @@ pub struct Ray {
     pub length: f64,
     /// Which way it points.
     pub heading: Heading,
-    /// Words at its outer end; may be empty.
-    pub label: String,
     /// Colour.
     pub ink: Ink,
 }
@@ -42,7 +40,7 @@ pub struct Polar {
     pub radius: String,
     /// Scale of the radius, which begins at zero where it is linear.
     pub scale: Scale,
-    /// Curves of angle to the normal [degrees], in (−180, 180], and radius.
+    /// Curves of angle to the normal [degrees], in (−180, 180], and radius; one without points is a line of the legend.
     pub curves: Vec<Curve>,
     /// Arrows.
     pub rays: Vec<Ray>,
@@ -148,7 +146,7 @@ impl Polar {
     }
 }
 
-/// An arrow with a head of ten pixels.
+/// A line from the centre with its head.
 fn draw_ray(d: &mut Drawing, f: &Frame, ray: &Ray) {
     let end = f.at(ray.angle, ray.length);
     let dash = if ray.heading == Heading::In { Dash::Dashed } else { Dash::Solid };
@@ -158,16 +156,13 @@ fn draw_ray(d: &mut Drawing, f: &Frame, ray: &Ray) {
         Heading::In => (f.at(ray.angle, 0.3 * ray.length), ray.angle),
         Heading::Out => (end, ray.angle + 180.0),
     };
+    // A short arrow has a small head.
+    let head = (0.6 * ray.length * f.radius).min(9.0);
     let wing = |turn: f64| {
         let (sin, cos) = (towards + turn).to_radians().sin_cos();
-        [tip[0] + 9.0 * sin, tip[1] - 9.0 * cos]
+        [tip[0] + head * sin, tip[1] - head * cos]
     };
     d.area(vec![tip, wing(18.0), wing(-18.0)], ray.ink, 1.0);
-    if !ray.label.is_empty() {
-        let beyond = f.at(ray.angle, ray.length + 12.0 / f.radius);
-        let anchor = if ray.angle < 0.0 { Anchor::End } else { Anchor::Start };
-        d.text([beyond[0], beyond[1] + 0.35 * SMALL], &ray.label, SMALL, anchor, ray.ink);
-    }
 }
 
 #[cfg(test)]
