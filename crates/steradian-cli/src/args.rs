@@ -1,8 +1,9 @@
 //! What the user typed, validated as far as a single argument allows.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
+use steradian::lab::probe::Angles;
 use steradian::scene::desc::MAX_SAMPLES;
 
 /// Steradian: a spectral, physically based renderer for scenes in the pbrt-v4 format.
@@ -21,7 +22,8 @@ Examples:
   steradian render scene.pbrt --spp 16 --quiet     the same, fast and rough
   steradian check scene.pbrt                       everything that is wrong with it
   steradian verify scene.pbrt --material paint     does it reflect more than arrives, is it reciprocal?
-  steradian compare a.exr reference.exr            how far two pictures differ";
+  steradian compare a.exr reference.exr            how far two pictures differ
+  steradian plot scene.pbrt --material gold        how a material scatters, as a picture";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -35,6 +37,10 @@ pub(crate) enum Command {
     Verify(Verify),
     /// Compare two images: mean ratio, MSE, relMSE, FLIP, and a map of the error
     Compare(Compare),
+    /// Print how a material of a scene scatters: f, pdf, scattering probability, reflectance, transmittance
+    Bsdf(Bsdf),
+    /// Draw how a material of a scene scatters: lobes, albedo, Fresnel curves, spectra; or a sphere of it
+    Plot(Plot),
 }
 
 #[derive(Args, Debug)]
@@ -143,6 +149,209 @@ pub(crate) struct Compare {
     pub(crate) json: bool,
 }
 
+#[derive(Args, Debug)]
+#[command(after_help = BSDF_NOTES)]
+pub(crate) struct Bsdf {
+    /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Name of the material [default: the only one that the scene states]
+    #[arg(short, long, value_name = "NAME")]
+    pub(crate) material: Option<String>,
+    /// Direction towards the sensor, in degrees; theta above 90 is below the surface
+    #[arg(
+        long,
+        value_name = "THETA,PHI",
+        value_parser = parse_angles,
+        allow_hyphen_values = true,
+        required_unless_present = "directions"
+    )]
+    pub(crate) wo: Option<Angles>,
+    /// Direction towards the light, in degrees
+    #[arg(
+        long,
+        value_name = "THETA,PHI",
+        value_parser = parse_angles,
+        allow_hyphen_values = true,
+        required_unless_present = "directions"
+    )]
+    pub(crate) wi: Option<Angles>,
+    /// File of directions, four numbers a line: wo theta, wo phi, wi theta, wi phi, in degrees; `-` reads standard input
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["wo", "wi"])]
+    pub(crate) directions: Option<PathBuf>,
+    /// Wavelengths in nm
+    #[arg(
+        short = 'l',
+        long,
+        value_name = "L",
+        value_delimiter = ',',
+        default_value = "450,550,650",
+        value_parser = parse_wavelength
+    )]
+    pub(crate) wavelength: Vec<f32>,
+    /// What f carries: radiance is scaled by the squared index through a refraction, importance (power) is not
+    #[arg(long, value_enum, default_value = "radiance")]
+    pub(crate) mode: Transport,
+    /// Texture coordinates of the point that is looked at
+    #[arg(long, value_name = "U,V", default_value = "0.5,0.5", value_parser = parse_uv, allow_hyphen_values = true)]
+    pub(crate) uv: [f32; 2],
+    /// Random walks behind each value of a material that is estimated
+    #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u32).range(2..=100_000_000))]
+    pub(crate) walks: u32,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+const BSDF_NOTES: &str = "\
+f has no cosine. rho and tau are the shares of power that are reflected and transmitted of light
+from wi; s = f |cos theta_o| / (rho + tau) is the density of that light's scattered power over wo.
+
+Example:
+  steradian bsdf scene.pbrt --material gold --wo 30,0 --wi 45,180 --wavelength 450,550,650";
+
+#[derive(Args, Debug)]
+#[command(after_help = PLOT_NOTES)]
+pub(crate) struct Plot {
+    /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Name of the material [default: the only one that the scene states]
+    #[arg(short, long, value_name = "NAME")]
+    pub(crate) material: Option<String>,
+    /// File to write: .svg or .png, for a sphere .png, .exr or .pfm; may be repeated [default: the material's name]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// What to draw
+    #[arg(long, value_enum, default_value = "all", conflicts_with = "sphere")]
+    pub(crate) kind: PlotKind,
+    /// Wavelengths in nm
+    #[arg(
+        short = 'l',
+        long,
+        value_name = "L",
+        value_delimiter = ',',
+        default_value = "450,550,650",
+        value_parser = parse_wavelength
+    )]
+    pub(crate) wavelength: Vec<f32>,
+    /// Angles of the arriving light in degrees; above 90 it comes from below
+    #[arg(
+        short,
+        long,
+        value_name = "THETA",
+        value_delimiter = ',',
+        default_value = "0,45",
+        value_parser = parse_theta
+    )]
+    pub(crate) theta: Vec<f64>,
+    /// Radius of the lobes
+    #[arg(long, value_enum, default_value = "intensity")]
+    pub(crate) radius: LobeRadius,
+    /// Scale of the lobes' radius: `log` shows four decades
+    #[arg(long, value_enum, default_value = "linear")]
+    pub(crate) scale: LobeScale,
+    /// Texture coordinates of the point that is looked at
+    #[arg(long, value_name = "U,V", default_value = "0.5,0.5", value_parser = parse_uv, allow_hyphen_values = true)]
+    pub(crate) uv: [f32; 2],
+    /// Random walks behind each value of a material that is estimated
+    #[arg(long, value_name = "N", default_value = "4000", value_parser = clap::value_parser!(u32).range(2..=100_000_000))]
+    pub(crate) walks: u32,
+    /// Render a sphere of the material on a checkered floor instead
+    #[arg(long)]
+    pub(crate) sphere: bool,
+    /// Samples per pixel of the sphere
+    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
+    pub(crate) spp: u32,
+    /// Size of the sphere's picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "480x480", value_parser = parse_resolution)]
+    pub(crate) resolution: [u32; 2],
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+const PLOT_NOTES: &str = "\
+Examples:
+  steradian plot scene.pbrt --material gold -o gold.svg -o gold.png
+  steradian plot scene.pbrt --material gold --kind lobes --theta 30,60 --scale log -o lobes.svg
+  steradian plot scene.pbrt --material gold --sphere -o ball.png";
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlotKind {
+    /// Polar lobes in the plane of incidence
+    Lobes,
+    /// Reflectance and transmittance over angle and over wavelength
+    Albedo,
+    /// Fresnel reflectance of both polarisations, where the material has an index
+    Fresnel,
+    /// Index and extinction over wavelength, or the albedo where the material has none
+    Spectrum,
+    /// All of them that the material has
+    All,
+}
+
+/// What the radius of a lobe means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LobeRadius {
+    /// f |cos theta_o|: scattered intensity for unit power
+    Intensity,
+    /// f: the scattering function itself
+    F,
+}
+
+/// How the radius of a lobe grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LobeScale {
+    /// Evenly
+    Linear,
+    /// By powers of ten
+    Log,
+}
+
+/// What is transported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Transport {
+    /// From lights to the sensor
+    Radiance,
+    /// From the sensor to lights
+    Importance,
+}
+
+fn parse_angles(text: &str) -> Result<Angles, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[theta, phi]) => angles(theta, phi),
+        _ => Err("expected THETA,PHI in degrees, such as 30,180".to_owned()),
+    }
+}
+
+/// Angles in degrees within the range that makes sense.
+pub(crate) fn angles(theta: f64, phi: f64) -> Result<Angles, String> {
+    if !(0.0..=180.0).contains(&theta) {
+        return Err(format!("theta must lie between 0 and 180 degrees, not {theta}"));
+    }
+    if !phi.is_finite() {
+        return Err("phi must be a number of degrees".to_owned());
+    }
+    Ok(Angles { theta, phi })
+}
+
+fn parse_theta(text: &str) -> Result<f64, String> {
+    let theta = text.trim().parse().map_err(|_| "expected an angle in degrees, such as 45".to_owned())?;
+    angles(theta, 0.0).map(|a| a.theta)
+}
+
+fn parse_uv(text: &str) -> Result<[f32; 2], String> {
+    let numbers: Option<Vec<f32>> =
+        text.split(',').map(|n| n.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
+    match numbers.as_deref() {
+        Some(&[u, v]) => Ok([u, v]),
+        _ => Err("expected U,V, such as 0.5,0.5".to_owned()),
+    }
+}
+
 fn parse_resolution(text: &str) -> Result<[u32; 2], String> {
     let parsed =
         text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
@@ -206,6 +415,12 @@ mod tests {
         assert_eq!(parse_crop("0,0.5,0.25,1"), Ok([0.0, 0.5, 0.25, 1.0]));
         assert!(parse_crop("0.5,0.5,0,1").is_err() && parse_crop("0,1,0").is_err());
         assert!(parse_crop("nan,1,0,1").is_err());
+        assert_eq!(parse_angles("30, -20"), Ok(Angles { theta: 30.0, phi: -20.0 }));
+        assert!(
+            parse_angles("30").is_err() && parse_angles("181,0").is_err() && parse_angles("nan,0").is_err()
+        );
+        assert!(parse_wavelength("0").is_err() && parse_wavelength("inf").is_err());
+        assert!(parse_uv("1").is_err() && parse_uv("nan,0").is_err());
         assert_eq!(parse_duration("90s"), Ok(Duration::from_secs(90)));
         assert_eq!(parse_duration("1.5m"), Ok(Duration::from_secs(90)));
         assert!(

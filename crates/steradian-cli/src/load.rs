@@ -45,6 +45,18 @@ fn is_stdin(path: &Path) -> bool {
 }
 
 impl Loading {
+    /// Leaves out everything but materials and their textures, which may be the smallest part of a scene.
+    pub(crate) fn materials_only(mut self) -> Self {
+        if let Some(scene) = &mut self.imported.scene {
+            scene.shapes.clear();
+            scene.objects.clear();
+            scene.instances.clear();
+            scene.lights.clear();
+            scene.area_lights.clear();
+        }
+        self
+    }
+
     /// Compiles what was read and shows all messages.
     pub(crate) fn compile(mut self, verbosity: Verbosity) -> Result<RenderJob, Failure> {
         let job = self

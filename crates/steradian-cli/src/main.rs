@@ -1,11 +1,15 @@
-//! The `steradian` command: renders, inspects, checks and compares.
+//! The `steradian` command: renders, inspects, checks, compares, and looks at materials.
 
 mod args;
+mod bsdf;
 mod compare;
 mod inspect;
 mod load;
 mod output;
+mod pick;
+mod plot;
 mod progress;
+mod raster;
 mod render;
 mod verify;
 
@@ -47,6 +51,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => inspect::check(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Bsdf(arguments) => bsdf::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

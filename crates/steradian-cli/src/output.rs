@@ -29,17 +29,13 @@ pub(crate) fn reason(e: &std::io::Error) -> String {
 
 /// A file to be written, known to be writable before the long work begins.
 #[derive(Debug)]
-pub(crate) struct Target {
+pub(crate) struct OutputFile {
     path: PathBuf,
-    format: FrameFormat,
 }
 
-impl Target {
-    /// Checks the extension, and that a file can be made in the folder.
+impl OutputFile {
+    /// Checks that a file can be made in the folder.
     pub(crate) fn new(path: &Path) -> Result<Self, String> {
-        let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
-        let format =
-            FrameFormat::from_extension(&extension).map_err(|e| format!("{}: {e}", path.display()))?;
         let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !folder.is_dir() {
             return Err(format!("{}: the folder {} does not exist", path.display(), folder.display()));
@@ -47,12 +43,12 @@ impl Target {
         if path.is_dir() {
             return Err(format!("{} is a folder", path.display()));
         }
-        let target = Self { path: path.to_owned(), format };
-        let partial = target.partial();
+        let file = Self { path: path.to_owned() };
+        let partial = file.partial();
         File::create(&partial)
             .and_then(|_| std::fs::remove_file(&partial))
             .map_err(|e| format!("cannot write into the folder of {}: {}", path.display(), reason(&e)))?;
-        Ok(target)
+        Ok(file)
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -65,13 +61,21 @@ impl Target {
         self.path.with_file_name(name)
     }
 
-    /// Writes beside the target and renames, so that an older picture is never lost to a failed write.
-    pub(crate) fn write(&self, frame: &Frame) -> Result<(), String> {
+    /// Writes bytes as [`OutputFile::write_with`] does.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), String> {
+        self.write_with(|file| file.write_all(bytes).map_err(|e| e.to_string()))
+    }
+
+    /// Writes beside the target and renames, so that an older file is never lost to a failed write.
+    fn write_with(
+        &self,
+        write: impl FnOnce(&mut BufWriter<File>) -> Result<(), String>,
+    ) -> Result<(), String> {
         let partial = self.partial();
         let failed = |e: &dyn std::fmt::Display| format!("cannot write {}: {e}", self.path.display());
         let written = (|| {
             let mut file = BufWriter::new(File::create(&partial).map_err(|e| failed(&e))?);
-            write_frame(frame, &mut file, self.format).map_err(|e| failed(&e))?;
+            write(&mut file).map_err(|e| failed(&e))?;
             file.flush().map_err(|e| failed(&e))?;
             std::fs::rename(&partial, &self.path).map_err(|e| failed(&e))
         })();
@@ -80,5 +84,31 @@ impl Target {
             let _ = std::fs::remove_file(&partial);
         }
         written
+    }
+}
+
+/// A picture to be written.
+#[derive(Debug)]
+pub(crate) struct Target {
+    file: OutputFile,
+    format: FrameFormat,
+}
+
+impl Target {
+    /// Checks the extension, and that a file can be made in the folder.
+    pub(crate) fn new(path: &Path) -> Result<Self, String> {
+        let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
+        let format =
+            FrameFormat::from_extension(&extension).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(Self { file: OutputFile::new(path)?, format })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.file.path()
+    }
+
+    /// Writes the picture; an older one is never lost to a failed write.
+    pub(crate) fn write(&self, frame: &Frame) -> Result<(), String> {
+        self.file.write_with(|file| write_frame(frame, file, self.format).map_err(|e| e.to_string()))
     }
 }
