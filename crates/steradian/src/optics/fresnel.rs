@@ -29,6 +29,7 @@ impl<T: Real> Polarized<T> {
 ///
 /// A negative cosine means incidence from below, where the relative index is 1/eta. Total internal
 /// reflection gives one for both polarisations, and so does grazing incidence.
+#[inline]
 pub fn dielectric_polarized<T: Real>(cos_theta_i: T, eta: T) -> Polarized<T> {
     let ci = cos_theta_i.abs().min(T::ONE);
     let (eta, refracted_square) = if cos_theta_i < T::ZERO {
@@ -48,6 +49,7 @@ pub fn dielectric_polarized<T: Real>(cos_theta_i: T, eta: T) -> Polarized<T> {
 
 /// Reflectance of a dielectric interface for unpolarised light, B (2.12); domain as
 /// [`dielectric_polarized`]. The transmittance of power is 1 − R.
+#[inline]
 pub fn dielectric(cos_theta_i: f32, eta: f32) -> f32 {
     Crossing::new(cos_theta_i, eta).reflectance
 }
@@ -110,7 +112,7 @@ pub fn normal_index<T: Real>(cos_theta_i: T, eta: T, k: T) -> Complex<T> {
     let q = (p * p + (product + product) * (product + product)).sqrt();
     // b₁² b₂² = (η k)²: whichever of q ± p does not cancel gives the other one.
     let large = (T::HALF * (q + p.abs())).sqrt();
-    let small = if large > T::ZERO { product.abs() / large } else { T::ZERO };
+    let small = product.abs() / (large + T::TINY);
     if p < T::ZERO { Complex::new(small, large) } else { Complex::new(large, small) }
 }
 
@@ -120,13 +122,15 @@ pub fn normal_index<T: Real>(cos_theta_i: T, eta: T, k: T) -> Complex<T> {
 ///
 /// The source's tanθ sinθ is multiplied out by cosθ, so that grazing incidence is regular, and b₁² + b₂² − 2 b₁ c + c²
 /// is formed as (b₁ − c)² + b₂², which does not cancel.
+#[inline]
 pub fn conductor_polarized<T: Real>(cos_theta_i: T, eta: T, k: T) -> Polarized<T> {
     let c = cos_theta_i.abs().min(T::ONE);
     let sin2 = (T::ONE - c) * (T::ONE + c);
     let Complex { re: b1, im: b2 } = normal_index(c, eta, k);
     let square = |x: T| x * x;
-    // Zero over zero: an index of zero at normal incidence, an index of one at grazing incidence.
-    let share = |reflected: T, all: T| if all > T::ZERO { reflected / all } else { T::ONE };
+    // An index of zero at normal incidence and an index of one at grazing incidence would be zero over zero; a branch
+    // would keep the lanes from being vectorised.
+    let share = |reflected: T, all: T| (reflected + T::TINY) / (all + T::TINY);
     let s = share(square(b1 - c) + square(b2), square(b1 + c) + square(b2));
     let b2c = square(b2 * c);
     let p = s * share(square(b1 * c - sin2) + b2c, square(b1 * c + sin2) + b2c);
@@ -134,6 +138,7 @@ pub fn conductor_polarized<T: Real>(cos_theta_i: T, eta: T, k: T) -> Polarized<T
 }
 
 /// Reflectance of an absorbing medium for unpolarised light; domain as [`conductor_polarized`].
+#[inline]
 pub fn conductor(cos_theta_i: f32, eta: f32, k: f32) -> f32 {
     conductor_polarized(cos_theta_i, eta, k).unpolarized()
 }

@@ -21,6 +21,8 @@ pub trait Real:
     const ONE: Self;
     /// One half.
     const HALF: Self;
+    /// The smallest normal number above zero.
+    const TINY: Self;
 
     /// The magnitude.
     fn abs(self) -> Self;
@@ -41,6 +43,7 @@ impl Real for f32 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
+    const TINY: Self = Self::MIN_POSITIVE;
 
     #[inline]
     fn abs(self) -> Self {
@@ -72,6 +75,7 @@ impl Real for f64 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
+    const TINY: Self = Self::MIN_POSITIVE;
 
     #[inline]
     fn abs(self) -> Self {
