@@ -12,7 +12,6 @@ use steradian::lab::Subject;
 use steradian::lab::probe::{AlbedoReading, Angles, Discrete, Estimate, Probe, Reading};
 
 pub(crate) fn run(arguments: &args::Bsdf) -> Result<(), Failure> {
-    pick::check_wavelengths(&arguments.wavelength)?;
     let stdin = Path::new("-");
     if arguments.directions.as_deref() == Some(stdin) && arguments.scenes.iter().any(|s| s == stdin) {
         return Err(Failure::Message("standard input holds either the scene or the directions".to_owned()));
@@ -20,6 +19,7 @@ pub(crate) fn run(arguments: &args::Bsdf) -> Result<(), Failure> {
     let pairs = pairs(arguments)?;
     let job = pick::materials(&arguments.scenes)?;
     let subject = pick::subject(&job, arguments.material.as_deref(), arguments.uv)?;
+    pick::check_wavelengths(&subject, &arguments.wavelength)?;
     let probe = Probe::new(&subject, &arguments.wavelength).map_err(|e| e.to_string())?;
     let mode = match arguments.mode {
         Transport::Radiance => Mode::Radiance,

@@ -1,4 +1,4 @@
-//! The material that the user means, at wavelengths for which there are data.
+//! The material that the user means, and the wavelengths for which it has data.
 
 use crate::Failure;
 use crate::load::{self, Loading, Verbosity};
@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use steradian::lab::Subject;
 use steradian::math::Vec2;
 use steradian::scene::{RenderJob, nearest};
-use steradian::spectrum::{LAMBDA_MAX, LAMBDA_MIN};
 
 /// How many names a message lists.
 const SHOWN_NAMES: usize = 20;
@@ -60,10 +59,12 @@ fn listed(names: &[String]) -> String {
     text
 }
 
-/// Refuses wavelengths for which spectra that come from colours say nothing.
-pub(crate) fn check_wavelengths(wavelengths: &[f32]) -> Result<(), String> {
-    let outside = wavelengths.iter().find(|l| !(LAMBDA_MIN..=LAMBDA_MAX).contains(*l));
+/// Refuses wavelengths for which the material's spectra have no data.
+pub(crate) fn check_wavelengths(subject: &Subject<'_>, wavelengths: &[f32]) -> Result<(), String> {
+    let (lo, hi) = subject.range();
+    let outside = wavelengths.iter().find(|l| !(lo..=hi).contains(*l));
     outside.map_or(Ok(()), |l| {
-        Err(format!("wavelength {l} nm: materials are known from {LAMBDA_MIN} to {LAMBDA_MAX} nm only"))
+        let name = subject.name();
+        Err(format!("wavelength {l} nm: the data of material \"{name}\" reach from {lo} to {hi} nm"))
     })
 }

@@ -103,6 +103,9 @@ fn a_lambertian_surface_reads_what_lambert_says() {
     for column in ["lambda [nm]", "f [1/sr]", "pdf [1/sr]", "s [1/sr]", "rho [1]", "tau [1]"] {
         assert!(header.contains(column), "{header}");
     }
+    // Data reach as far as they reach.
+    let ask = ["--wo", "30,0", "--wi", "60,180", "--wavelength", "900"];
+    assert_eq!(rows(&desk.bsdf("paint", &ask))[0][8], "0.5");
     // Light from below stays below.
     let out = desk.bsdf("paint", &["--wo", "30,0", "--wi", "120,180", "-l", "550"]);
     assert_eq!(rows(&out)[0][5..], ["0", "0", "0", "0.5", "0"]);
@@ -210,8 +213,8 @@ fn what_cannot_be_asked_is_said_with_what_can() {
         "error: material \"both\" is a mix of \"paint\" and \"gold\": ask for one of these",
     );
     desk.fails(
-        &ask(&["--material", "paint", "--wavelength", "550,900"]),
-        "error: wavelength 900 nm: materials are known from 360 to 830 nm only",
+        &ask(&["--material", "paint", "--wavelength", "550,905"]),
+        "error: wavelength 905 nm: the data of material \"paint\" reach from 300 to 900 nm",
     );
     desk.refuses(&["bsdf", "scene.pbrt", "--wo", "0,0"], "--wi");
     desk.refuses(&["bsdf", "scene.pbrt", "--wo", "0", "--wi", "0,0"], "such as 30,180");

@@ -261,7 +261,7 @@ pub fn albedo_over_angle(subject: &Subject<'_>, view: &View) -> Result<Chart, Pr
 /// # Errors
 /// For materials that have no scattering function of their own.
 pub fn albedo_over_wavelength(subject: &Subject<'_>, view: &View) -> Result<Chart, ProbeError> {
-    let wavelengths = spectral_grid();
+    let wavelengths = spectral_grid(subject);
     let probe = Probe::new(subject, &wavelengths)?;
     let mut rho = Vec::new();
     let mut tau = Vec::new();
@@ -333,7 +333,7 @@ pub fn fresnel(subject: &Subject<'_>, view: &View) -> Result<Option<Chart>, Prob
 /// # Errors
 /// For materials that have no scattering function of their own.
 pub fn index_over_wavelength(subject: &Subject<'_>) -> Result<Option<Chart>, ProbeError> {
-    let wavelengths = spectral_grid();
+    let wavelengths = spectral_grid(subject);
     let probe = Probe::new(subject, &wavelengths)?;
     let Some(interfaces) = probe.interfaces() else { return Ok(None) };
     let curve = |part: &dyn Fn(&crate::bsdf::Interface, usize) -> f32| -> Vec<[f64; 2]> {
@@ -383,9 +383,12 @@ fn alike(curves: &[Vec<[f64; 2]>]) -> bool {
     })
 }
 
-fn spectral_grid() -> Vec<f32> {
+/// Wavelengths of the film's range for which the material has data.
+fn spectral_grid(subject: &Subject<'_>) -> Vec<f32> {
+    let (lo, hi) = subject.range();
     let n = ((LAMBDA_MAX - LAMBDA_MIN) / SPECTRAL_STEP).round() as usize;
-    (0..=n).map(|i| LAMBDA_MIN + i as f32 * SPECTRAL_STEP).collect()
+    let all = (0..=n).map(|i| LAMBDA_MIN + i as f32 * SPECTRAL_STEP);
+    all.filter(|l| (lo..=hi).contains(l)).collect()
 }
 
 fn wavelength_axis() -> Axis {

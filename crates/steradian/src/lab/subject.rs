@@ -50,6 +50,11 @@ impl<'j> Subject<'j> {
         self.job.scene.materials().label(self.id)
     }
 
+    /// The wavelengths for which its spectra have data [nm]; the whole of [0, ∞) where it has none that end.
+    pub fn range(&self) -> (f32, f32) {
+        self.job.scene.materials().range(self.id)
+    }
+
     /// The material.
     pub fn material(&self) -> &'j Material {
         self.job.scene.materials().get(self.id)

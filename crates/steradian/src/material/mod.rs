@@ -181,6 +181,7 @@ struct Entry {
     detail: Detail,
     needs_footprint: bool,
     label: String,
+    range: (f32, f32),
 }
 
 impl Materials {
@@ -219,7 +220,7 @@ impl Materials {
         let of = |id: MaterialId| self.needs_footprint(id);
         let needs_footprint =
             material.is_textured() || detail != Detail::Flat || material.parts().iter().any(|&id| of(id));
-        self.entries.push(Entry { material, detail, needs_footprint, label: String::new() });
+        self.entries.push(Entry { material, detail, needs_footprint, label: String::new(), range: (0.0, f32::INFINITY) });
         Ok(MaterialId(self.entries.len() as u32 - 1))
     }
 
@@ -241,6 +242,17 @@ impl Materials {
     /// Says what people call the material.
     pub fn set_label(&mut self, id: MaterialId, label: impl Into<String>) {
         self.entries[id.0 as usize].label = label.into();
+    }
+
+    /// The wavelengths for which all of the material's spectra have data [nm]; all of them until it is said. Beyond them the
+    /// material is not known: its spectra are zero there.
+    pub fn range(&self, id: MaterialId) -> (f32, f32) {
+        self.entries[id.0 as usize].range
+    }
+
+    /// Says for which wavelengths there are data.
+    pub fn set_range(&mut self, id: MaterialId, range: (f32, f32)) {
+        self.entries[id.0 as usize].range = range;
     }
 
     /// The scattering function of material `id` alone, without relief and in the frame of the shading normal; `None` for

@@ -1,7 +1,7 @@
 //! The parameters that a class of materials takes, and their values once the scene's textures, spectra and files are
 //! resolved. Importers and the compiler read the schema, so that a new class is no concern of theirs.
 
-use crate::spectrum::Spectrum;
+use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum};
 use crate::texture::{FloatInput, SpectrumInput};
 use std::path::PathBuf;
 
@@ -295,6 +295,18 @@ impl Arguments {
 
     fn value(&self, name: &str) -> Option<&Value> {
         self.0.iter().find(|a| a.name == name).map(|a| &a.value)
+    }
+
+    /// The wavelengths for which all spectra have data [nm]. Textures have them over the film's range.
+    pub fn range(&self) -> (f32, f32) {
+        let of = |value: &Value| match value {
+            Value::Spectrum(Some(SpectrumInput::Constant(s))) | Value::Index(Some(s)) => vec![s.range()],
+            Value::Spectrum(Some(SpectrumInput::Texture(_))) => vec![Some((LAMBDA_MIN, LAMBDA_MAX))],
+            Value::Spectra(spectra) => spectra.iter().map(Spectrum::range).collect(),
+            _ => Vec::new(),
+        };
+        let ranges = self.0.iter().flat_map(|a| of(&a.value)).flatten();
+        ranges.fold((0.0, f32::INFINITY), |(lo, hi), (a, b)| (a.max(lo), b.min(hi)))
     }
 
     /// Whether the scene states the parameter.

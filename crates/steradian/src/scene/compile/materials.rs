@@ -88,6 +88,7 @@ impl MaterialCompiler<'_, '_> {
             Ok(id) => {
                 let label = desc.name.clone().unwrap_or_else(|| format!("{}#{index}", desc.class.name));
                 self.materials.set_label(id, label);
+                self.materials.set_range(id, arguments.range());
                 id
             }
             Err((span, message)) => {
