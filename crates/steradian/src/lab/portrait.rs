@@ -398,3 +398,94 @@ fn wavelength_axis() -> Axis {
 fn nm(lambda: f32) -> String {
     format!("{lambda} nm")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::import::pbrt::{Input, import};
+    use crate::scene::{Diagnostics, MemoryFiles, RenderJob, compile};
+    use std::f64::consts::{FRAC_1_PI, PI};
+    use std::path::Path;
+
+    fn job() -> RenderJob {
+        let text = b"WorldBegin
+            MakeNamedMaterial \"paint\" \"string type\" \"diffuse\" \"spectrum reflectance\" [400 0.5 700 0.5]
+            MakeNamedMaterial \"glass\" \"string type\" \"dielectric\"
+            MakeNamedMaterial \"polished\" \"string type\" \"conductor\" \"bool remaproughness\" false
+              \"float roughness\" 0.01";
+        let input = Input::Text { name: "test", bytes: text, base: Path::new("") };
+        let scene = import(&[input], &MemoryFiles::default()).scene.unwrap();
+        compile(scene, &MemoryFiles::default(), &mut Diagnostics::default()).unwrap()
+    }
+
+    fn view(wavelengths: &[f32], thetas: &[f64]) -> View {
+        View {
+            wavelengths: wavelengths.to_vec(),
+            thetas: thetas.to_vec(),
+            radius: LobeRadius::Intensity,
+            scale: Scale::Linear,
+            walks: 2,
+        }
+    }
+
+    #[test]
+    fn wavelengths_that_scatter_alike_share_a_lobe_and_paint_scatters_by_lamberts_law() {
+        let job = job();
+        let paint = Subject::find(&job, "paint").unwrap();
+        let polar = lobes(&paint, &view(&[450.0, 650.0], &[0.0, 60.0])).unwrap();
+        let labels: Vec<_> = polar.curves.iter().map(|c| c.label.as_str()).collect();
+        assert_eq!(labels, ["light at 0°", "light at 60°"]);
+        for [angle, radius] in &polar.curves[1].points {
+            assert!((radius - 0.5 * FRAC_1_PI * (angle * PI / 180.0).cos()).abs() < 1e-6, "{angle}");
+        }
+    }
+
+    /// A lobe of half a degree on a grid of two: its peak and its flanks must be on paper.
+    #[test]
+    fn narrow_lobes_are_followed_to_their_peak() {
+        let job = job();
+        let metal = Subject::find(&job, "polished").unwrap();
+        let polar = lobes(&metal, &view(&[550.0], &[37.3])).unwrap();
+        let points = &polar.curves[0].points;
+        let peak = points.iter().map(|p| p[1]).fold(0.0, f64::max);
+        let probe = Probe::new(&metal, &[550.0]).unwrap();
+        let wi = Angles { theta: 37.3, phi: 180.0 }.direction();
+        let dense = (0..4000).map(|i| {
+            let theta = 35.0 + f64::from(i) * 0.00125;
+            let wo = Angles { theta, phi: 0.0 }.direction();
+            let r = probe.f(wo, wi, Mode::Radiance, 2)[0].value * f64::from(wo.abs_cos_theta());
+            let next = points.iter().position(|p| p[0] >= theta).unwrap();
+            let ([a, ra], [b, rb]) = (points[next - 1], points[next]);
+            let drawn = ra + (rb - ra) * (theta - a) / (b - a);
+            (r, (r - drawn).abs())
+        });
+        let (most, worst) = dense.fold((0.0, 0.0), |(m, w): (f64, f64), (r, e)| (m.max(r), w.max(e)));
+        assert!((peak / most - 1.0).abs() < 1e-3 && worst < 0.02 * most, "{peak} {most} {worst}");
+    }
+
+    /// R(0) = 0.04, and no light polarised in the plane is reflected at Brewster's angle arctan 1.5.
+    #[test]
+    fn fresnel_curves_begin_at_four_percent_and_vanish_at_brewsters_angle() {
+        let job = job();
+        let glass = Subject::find(&job, "glass").unwrap();
+        let chart = fresnel(&glass, &view(&[450.0, 650.0], &[0.0])).unwrap().unwrap();
+        let curve = |label: &str| &chart.curves.iter().find(|c| c.label == label).unwrap().points;
+        for label in ["mean", "s", "p"] {
+            assert!((curve(label)[0][1] - 0.04).abs() < 1e-6 && (curve(label)[360][1] - 1.0).abs() < 1e-6);
+        }
+        let least = curve("p").iter().copied().reduce(|a, b| if b[1] < a[1] { b } else { a }).unwrap();
+        assert!((least[0] - 1.5_f64.atan().to_degrees()).abs() <= 0.125 && least[1] < 1e-5, "{least:?}");
+        let paint = Subject::find(&job, "paint").unwrap();
+        assert!(fresnel(&paint, &view(&[550.0], &[0.0])).unwrap().is_none());
+    }
+
+    #[test]
+    fn curves_over_wavelength_end_where_the_data_end() {
+        let job = job();
+        let paint = Subject::find(&job, "paint").unwrap();
+        let chart = albedo_over_wavelength(&paint, &view(&[550.0], &[0.0])).unwrap();
+        let points = &chart.curves[0].points;
+        assert_eq!((points[0][0], points[points.len() - 1][0]), (400.0, 700.0));
+        assert!(points.iter().all(|p| (p[1] - 0.5).abs() < 1e-6));
+    }
+}
