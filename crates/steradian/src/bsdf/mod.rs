@@ -9,6 +9,7 @@ pub mod contract;
 mod cosine_lobe;
 pub mod dielectric;
 pub mod diffuse;
+pub mod hair;
 pub mod interface;
 pub mod layered;
 pub mod legacy_phong;
@@ -18,6 +19,7 @@ pub mod modified_phong;
 pub mod oren_nayar;
 mod quadrature;
 pub mod specimen;
+pub mod stack;
 pub mod varnished;
 
 pub use albedo::Albedo;
@@ -25,6 +27,7 @@ pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
+pub use hair::{Fibre, Hair};
 pub use interface::Interface;
 pub use layered::{Coat, ExitWeights, Layered};
 pub use legacy_phong::LegacyPhong;
@@ -33,6 +36,7 @@ pub use mirror::Mirror;
 pub use modified_phong::{ModifiedPhong, PhongLobe, PhongNormalization, PhongSampling};
 pub use oren_nayar::OrenNayar;
 pub use specimen::{Claims, Energy, Reciprocity, Specimen, Values};
+pub use stack::{Stack, StackCabinet};
 pub use varnished::VarnishedDiffuse;
 
 use crate::math::{LocalDir, Vec2};
@@ -68,6 +72,10 @@ pub enum Bsdf<'a> {
     CoatedConductor(Layered<Conductor>),
     /// A table of measurements.
     Measured(Measured<'a>),
+    /// A hair.
+    Hair(Hair),
+    /// A stack of layers.
+    Stack(Stack<'a>),
 }
 
 // One per path vertex, passed by value.
@@ -91,6 +99,8 @@ impl<'a> Bsdf<'a> {
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
             Self::CoatedConductor(b) => b.eval(wo, wi, mode),
             Self::Measured(b) => b.eval(wo, wi),
+            Self::Hair(b) => b.eval(wo, wi),
+            Self::Stack(b) => b.eval(wo, wi, mode),
         }
     }
 
@@ -110,6 +120,8 @@ impl<'a> Bsdf<'a> {
             Self::CoatedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedConductor(b) => b.pdf(wo, wi),
             Self::Measured(b) => b.pdf(wo, wi),
+            Self::Hair(b) => b.pdf(wo, wi),
+            Self::Stack(b) => b.pdf(wo, wi),
         }
     }
 
@@ -130,6 +142,8 @@ impl<'a> Bsdf<'a> {
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
             Self::Measured(b) => b.sample(wo, u),
+            Self::Hair(b) => b.sample(wo, uc, u),
+            Self::Stack(b) => b.sample(wo, uc, u, mode),
         }
     }
 
@@ -146,7 +160,8 @@ impl<'a> Bsdf<'a> {
             Self::Dielectric(b) => b.albedo(wi),
             Self::ThinDielectric(b) => Some(b.albedo(wi)),
             Self::VarnishedDiffuse(b) => Some(b.albedo(wi)),
-            Self::CoatedDiffuse(_) | Self::CoatedConductor(_) | Self::Measured(_) => None,
+            Self::Stack(b) => b.albedo(wi),
+            Self::CoatedDiffuse(_) | Self::CoatedConductor(_) | Self::Measured(_) | Self::Hair(_) => None,
         };
         closed_form.unwrap_or_else(|| {
             // Towards sensors, weights are ratios of power.
@@ -183,6 +198,8 @@ impl<'a> Bsdf<'a> {
             Self::CoatedDiffuse(b) => b.lobes(),
             Self::CoatedConductor(b) => b.lobes(),
             Self::Measured(b) => b.lobes(),
+            Self::Hair(b) => b.lobes(),
+            Self::Stack(b) => b.lobes(),
         }
     }
 
@@ -194,7 +211,8 @@ impl<'a> Bsdf<'a> {
             | Self::DiffuseTransmission(_)
             | Self::ThinDielectric(_)
             | Self::Measured(_)
-            | Self::OrenNayar(_) => {}
+            | Self::OrenNayar(_)
+            | Self::Hair(_) => {}
             Self::Mirror(b) => *self = Self::ModifiedPhong(b.regularized()),
             Self::ModifiedPhong(b) => b.regularize(),
             Self::LegacyPhong(b) => b.regularize(),
@@ -208,6 +226,7 @@ impl<'a> Bsdf<'a> {
             }
             Self::CoatedDiffuse(b) => b.regularize(),
             Self::CoatedConductor(b) => b.regularize(),
+            Self::Stack(b) => b.regularize(),
         }
     }
 
@@ -217,6 +236,7 @@ impl<'a> Bsdf<'a> {
         match &mut self {
             Self::CoatedDiffuse(b) => b.seed = seed,
             Self::CoatedConductor(b) => b.seed = seed,
+            Self::Stack(b) => b.seed = seed,
             Self::Diffuse(_)
             | Self::DiffuseTransmission(_)
             | Self::OrenNayar(_)
@@ -227,7 +247,8 @@ impl<'a> Bsdf<'a> {
             | Self::Dielectric(_)
             | Self::ThinDielectric(_)
             | Self::VarnishedDiffuse(_)
-            | Self::Measured(_) => {}
+            | Self::Measured(_)
+            | Self::Hair(_) => {}
         }
         self
     }
@@ -254,6 +275,8 @@ impl<'a> Bsdf<'a> {
             Self::CoatedDiffuse(b) => b.claims(),
             Self::CoatedConductor(b) => b.claims(),
             Self::Measured(b) => b.claims(),
+            Self::Hair(b) => b.claims(),
+            Self::Stack(b) => b.claims(),
         }
     }
 
@@ -272,6 +295,8 @@ impl<'a> Bsdf<'a> {
         all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
         all.extend(Layered::<Conductor>::specimens().map(|s| s.map(Self::CoatedConductor)));
         all.extend(Measured::specimens(&cabinet.measured).map(|s| s.map(Self::Measured)));
+        all.extend(Hair::specimens().map(|s| s.map(Self::Hair)));
+        all.extend(Stack::specimens(&cabinet.stacks).map(|s| s.map(Self::Stack)));
         all
     }
 }
@@ -281,4 +306,6 @@ impl<'a> Bsdf<'a> {
 pub struct Cabinet {
     /// Small synthetic measurements.
     pub measured: Vec<MeasuredTable>,
+    /// Layers of stacks.
+    pub stacks: StackCabinet,
 }

@@ -8,6 +8,7 @@ pub mod declared;
 mod detail;
 pub mod dielectric;
 pub mod diffuse;
+pub mod hair;
 pub mod inputs;
 pub mod legacy_phong;
 pub mod mirror;
@@ -16,6 +17,7 @@ pub mod modified_phong;
 pub mod oren_nayar;
 mod passive;
 pub mod schema;
+pub mod stack;
 pub mod surface;
 
 pub use coated::{CoatedConductorMaterial, CoatedDiffuseMaterial};
@@ -23,6 +25,7 @@ pub use conductor::ConductorMaterial;
 pub use declared::{Declared, Role};
 pub use dielectric::{DielectricMaterial, ThinDielectricMaterial};
 pub use diffuse::{DiffuseMaterial, DiffuseTransmissionMaterial};
+pub use hair::{HairMaterial, Pigment};
 pub use inputs::{CoatInput, Lookup, Metal, Roughness, RoughnessScale};
 pub use legacy_phong::LegacyPhongMaterial;
 pub use mirror::MirrorMaterial;
@@ -30,6 +33,7 @@ pub use mix::{InterfaceMaterial, MixMaterial};
 pub use modified_phong::ModifiedPhongMaterial;
 pub use oren_nayar::OrenNayarMaterial;
 pub use schema::{Arguments, Fault, MaterialId, Parameter, ParameterKind};
+pub use stack::{StackBase, StackMaterial};
 pub use surface::{SurfaceBsdf, SurfaceSample};
 
 use crate::bsdf::Bsdf;
@@ -121,6 +125,10 @@ materials! {
     ModifiedPhong(ModifiedPhongMaterial),
     /// Phong's legacy shading: not a BRDF.
     LegacyPhong(LegacyPhongMaterial),
+    /// A hair.
+    Hair(HairMaterial),
+    /// A stack of layers.
+    Stack(StackMaterial),
     /// One of two materials.
     Mix(MixMaterial),
     /// The boundary of a medium.

@@ -65,6 +65,7 @@ impl<B: Scatterer> Bench<'_, B> {
                 self.worst_estimated_pair(comparison, index)
             };
             let (law, expectation) = match (comparison, self.claims.reciprocity) {
+                (Comparison::Adjoint, Reciprocity::Reported) => (Law::Adjoint, Expectation::Reported),
                 (Comparison::Adjoint, _) => (Law::Adjoint, self.of_values()),
                 (_, Reciprocity::Exact) if self.claims.has_named_bias() => {
                     (Law::Reciprocity, Expectation::Reported)
