@@ -1,6 +1,7 @@
 //! Developer chores of Steradian: `cargo xtask <command>`.
 
 mod bench_mitsuba;
+mod faults;
 mod imports;
 mod layers;
 mod mitsuba_bsdfs;
@@ -13,6 +14,7 @@ const USAGE: &str = "usage: cargo xtask <command>
 
   layers    fail on an import that points the wrong way, on files that import each other,
             on a scattering or light variant named where it must not be, and on files over 800 lines
+  faults    plant faults into scattering functions and show which laws catch them
   references [--scenes DIR] [--python EXE] [--only NAME]
             render the scenes of the collection that have reference pictures and compare them
   bench-mitsuba [--python EXE]
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let outcome = match arguments.first().map(String::as_str) {
         Some("layers") => layers::check(&root.join("crates/steradian/src")),
+        Some("faults") => faults::run(&root),
         Some("references") => references::run(&root, &arguments[1..]),
         Some("bench-mitsuba") => bench_mitsuba::run(&root, &arguments[1..]),
         Some("mitsuba-bsdfs") => mitsuba_bsdfs::run(&arguments[1..]),

@@ -7,7 +7,7 @@ use steradian::lab::verify::{Acceptance, Report, Standing, SubjectReport, Verdic
 pub(super) fn text(report: &Report, acceptance: Acceptance) -> String {
     let width = report.subjects.iter().map(|s| s.name.chars().count()).max().unwrap_or(0).clamp(8, 44);
     let mut out = format!(
-        "{:width$}  {:>6}  {:>11}  {:>17}  verdict\n",
+        "{:width$}  {:>6}  {:>13}  {:>17}  verdict\n",
         "subject", "laws", "reciprocity", "largest ρ + τ"
     );
     for subject in &report.subjects {
@@ -25,12 +25,18 @@ fn line(out: &mut String, subject: &SubjectReport, width: usize) {
     if subject.verdict() == Verdict::NotExamined {
         let note = subject.note.as_deref().unwrap_or_default();
         // Writing to a String does not fail.
-        let _ = writeln!(out, "{name:width$}  {:>6}  {:>11}  {:>17}  {note}", "-", "-", "-");
+        let _ = writeln!(out, "{name:width$}  {:>6}  {:>13}  {:>17}  {note}", "-", "-", "-");
         return;
     }
     let [held, examined] = subject.counts();
     let laws = format!("{held}/{examined}");
-    let pair = subject.worst_pair().map_or("-".to_owned(), |p| format!("{:.1e}", p.relative()));
+    let pair = subject.worst_pair().map_or("-".to_owned(), |p| {
+        // Where the difference is known from samples, the number alone would accuse chance.
+        match p.relative_tolerance() {
+            t if t > 0.01 => format!("{:.0e} ± {t:.0e}", p.relative()),
+            _ => format!("{:.1e}", p.relative()),
+        }
+    });
     let bright =
         subject.brightest().map_or("-".to_owned(), |b| format!("{:.4} at {:>3.0}°", b.value, b.theta));
     let verdict = match subject.verdict() {
@@ -41,7 +47,7 @@ fn line(out: &mut String, subject: &SubjectReport, width: usize) {
         Verdict::Contradicted => "FAIL",
         Verdict::NotExamined => "-",
     };
-    let _ = writeln!(out, "{name:width$}  {laws:>6}  {pair:>11}  {bright:>17}  {verdict}");
+    let _ = writeln!(out, "{name:width$}  {laws:>6}  {pair:>13}  {bright:>17}  {verdict}");
 }
 
 fn explain(out: &mut String, subject: &SubjectReport) {

@@ -17,6 +17,9 @@ pub struct Albedo {
 }
 
 impl Albedo {
+    /// Points of the average over samples.
+    pub(super) const SAMPLES: u32 = 1 << 14;
+
     /// Nothing is scattered.
     pub const BLACK: Self = Self { reflectance: Sampled::ZERO, transmittance: Sampled::ZERO };
 
@@ -41,10 +44,9 @@ impl Albedo {
     /// The mean weight of `sample`, which draws towards sensors with `uc` ∈ [0, 1) and `u` ∈ [0, 1)², over 16 384 points of
     /// Hammersley's set. Its error is some 3·10⁻⁴ for smooth functions, 2·10⁻³ for random walks.
     pub(super) fn by_sampling(sample: impl Fn(f32, Vec2) -> Option<BsdfSample>) -> Self {
-        const N: u32 = 1 << 14;
         let (mut reflected, mut transmitted) = ([0.0_f64; LANES], [0.0_f64; LANES]);
-        for i in 0..N {
-            let uc = (i as f32 + 0.5) / N as f32;
+        for i in 0..Self::SAMPLES {
+            let uc = (i as f32 + 0.5) / Self::SAMPLES as f32;
             // Base 2, by its bits.
             let ux = i.reverse_bits() as f32 * (1.0 / 4_294_967_296.0);
             let u = Vec2::new(ux, radical_inverse_base_3(i)).min(Vec2::splat(ONE_MINUS_EPSILON));
@@ -54,7 +56,8 @@ impl Albedo {
                 *sum += f64::from(weight);
             }
         }
-        let mean = |sum: [f64; LANES]| Sampled::from_array(sum.map(|x| (x / f64::from(N)) as f32));
+        let mean =
+            |sum: [f64; LANES]| Sampled::from_array(sum.map(|x| (x / f64::from(Self::SAMPLES)) as f32));
         Self { reflectance: mean(reflected), transmittance: mean(transmitted) }
     }
 }

@@ -94,4 +94,6 @@ fn brightest(findings: &[Finding]) -> Option<Finding> {
 }
 
 #[cfg(test)]
+mod faults;
+#[cfg(test)]
 mod tests;

@@ -24,6 +24,8 @@ pub struct Power {
     pub total_error: [f64; LANES],
     /// By quadrature of f cosθ and the power of discrete directions.
     pub integrated: Answer,
+    /// Standard errors of the integrated ρ + τ, from that of discrete directions.
+    pub integrated_error: [f64; LANES],
     /// By the function's own albedo.
     pub own: Answer,
 }
@@ -63,6 +65,28 @@ impl From<Albedo> for Answer {
         Self {
             reflectance: a.reflectance.to_array().map(f64::from),
             transmittance: a.transmittance.to_array().map(f64::from),
+        }
+    }
+}
+
+/// How far off a function's own albedo may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum OwnError {
+    /// It is a closed form.
+    None,
+    /// It is an average over points that are spread evenly.
+    Spaced,
+    /// It is an average over random walks.
+    Random,
+}
+
+impl OwnError {
+    /// Over the standard error of as many random samples.
+    fn share(self) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::Spaced => 0.3,
+            Self::Random => 1.0,
         }
     }
 }
@@ -122,28 +146,42 @@ impl<B: Scatterer> Bench<'_, B> {
     /// Laws about power, for a survey towards sensors.
     pub(super) fn judge_power(&self, survey: &Survey, index: u64, findings: &mut Vec<Finding>) -> Power {
         let wi = survey.wo;
-        let own = Answer::from(self.bsdf.albedo(wi));
+        let albedo = self.bsdf.albedo(wi);
+        let own = Answer::from(albedo);
+        // An average over the function's own samples has their error, a closed form has none.
+        let averaged = Albedo::by_sampling(|uc, u| self.bsdf.sample(wi, uc, u, Mode::Importance));
+        let own_error = match self.claims.values {
+            _ if averaged != albedo => OwnError::None,
+            Values::ClosedForm => OwnError::Spaced,
+            Values::Estimated | Values::Biased => OwnError::Random,
+        };
         let power = Power {
             wi,
             sampled: Answer::from_fn(|side, lane| survey.by_sampling(side, lane).value),
             error: Answer::from_fn(|side, lane| survey.by_sampling(side, lane).error),
             total_error: survey.total.map(|m| m.error()),
             integrated: Answer::from_fn(|side, lane| survey.by_quadrature(side, lane).value),
+            integrated_error: std::array::from_fn(|lane| {
+                let error = |side| survey.by_quadrature(side, lane).error;
+                error(Side::Reflection).hypot(error(Side::Transmission))
+            }),
             own,
         };
-        self.judge_agreement(survey, &own, findings);
+        self.judge_agreement(survey, &own, own_error, findings);
         self.judge_energy(survey, index, findings);
         power
     }
 
-    fn judge_agreement(&self, survey: &Survey, own: &Answer, findings: &mut Vec<Finding>) {
+    fn judge_agreement(
+        &self,
+        survey: &Survey,
+        own: &Answer,
+        own_error: OwnError,
+        findings: &mut Vec<Finding>,
+    ) {
         let sigmas = self.effort.sigmas();
-        // An average over samples is itself an estimate where walks are random.
-        let own_error = |sampled: &Integral| match self.claims.values {
-            Values::ClosedForm => 0.0,
-            Values::Estimated | Values::Biased => {
-                sampled.error * (f64::from(survey.n) / f64::from(1 << 14)).sqrt()
-            }
+        let own_error = |sampled: &Integral| {
+            own_error.share() * sampled.error * (f64::from(survey.n) / f64::from(Albedo::SAMPLES)).sqrt()
         };
         let (mut agreement, mut unity): (Option<Finding>, Option<Finding>) = (None, None);
         let keep = |worst: &mut Option<Finding>, f: Finding| {

@@ -19,6 +19,9 @@ const RELATIVE: f64 = 2e-3;
 /// Values below are no light [sr⁻¹].
 const FLOOR: f64 = 1e-6;
 
+/// Most sweeps of a search over its four angles.
+const SWEEPS: u32 = 100;
+
 /// A pair of directions and how unlike its two ways are.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
@@ -37,11 +40,27 @@ struct Defect {
 }
 
 impl Defect {
-    const NONE: Self = Self { there: 0.0, back: 0.0, tolerance: 1.0, lane: 0 };
+    const NONE: Self = Self { there: 0.0, back: 0.0, tolerance: FLOOR, lane: 0 };
 
     fn strain(&self) -> f64 {
         let strain = (self.there - self.back).abs() / self.tolerance;
         if strain.is_nan() { f64::INFINITY } else { strain }
+    }
+
+    /// Whether this is the worse one; of two that are alike, the one with more light.
+    fn is_worse_than(&self, other: &Self) -> bool {
+        let (a, b) = (self.strain(), other.strain());
+        a > b || (a == b && self.there > other.there)
+    }
+
+    fn worse_of(self, other: Self) -> Self {
+        if other.is_worse_than(&self) { other } else { self }
+    }
+}
+
+impl Pair {
+    fn worse_of(self, other: Self) -> Self {
+        if other.defect.is_worse_than(&self.defect) { other } else { self }
     }
 }
 
@@ -135,9 +154,7 @@ impl<B: Scatterer> Bench<'_, B> {
             let (a, b) = (f64::from(there[lane]), f64::from(back[lane]));
             let d = Defect { there: a, back: b, tolerance: RELATIVE * a.abs().max(b.abs()) + FLOOR, lane };
             suspicious |= !(d.strain() < 0.5);
-            if d.strain() > worst.strain() {
-                worst = d;
-            }
+            worst = worst.worse_of(d);
         }
         if suspicious {
             // What rounding of either direction does to either value.
@@ -169,11 +186,17 @@ impl<B: Scatterer> Bench<'_, B> {
             .filter_map(|i| self.start(i, &mut rng))
             .map(|angles| Pair { angles, defect: self.defect(angles, comparison, index) })
             .collect();
-        found.sort_by(|a, b| b.defect.strain().total_cmp(&a.defect.strain()));
+        found.sort_by(|a, b| {
+            let (a, b) = (a.defect, b.defect);
+            b.strain().total_cmp(&a.strain()).then(b.there.total_cmp(&a.there))
+        });
         found.truncate(8);
         for pair in &mut found {
             let mut step = 0.2_f32;
-            while step > 1e-3 {
+            for _ in 0..SWEEPS {
+                if step < 1e-3 {
+                    break;
+                }
                 let mut improved = false;
                 for axis in 0..4 {
                     for sign in [step, -step] {
@@ -183,7 +206,7 @@ impl<B: Scatterer> Bench<'_, B> {
                             angles[axis] = off_horizon(angles[axis]);
                         }
                         let defect = self.defect(angles, comparison, index);
-                        if defect.strain() > pair.defect.strain() {
+                        if defect.is_worse_than(&pair.defect) {
                             *pair = Pair { angles, defect };
                             improved = true;
                         }
@@ -194,7 +217,7 @@ impl<B: Scatterer> Bench<'_, B> {
                 }
             }
         }
-        found.into_iter().reduce(|a, b| if b.defect.strain() > a.defect.strain() { b } else { a })
+        found.into_iter().reduce(Pair::worse_of)
     }
 
     /// The i-th start of a search.
@@ -242,9 +265,7 @@ impl<B: Scatterer> Bench<'_, B> {
                 let error = a.error().hypot(b.error());
                 let tolerance = self.effort.sigmas() * error + RELATIVE * a.mean().max(b.mean()) + FLOOR;
                 let d = Defect { there: a.mean(), back: b.mean(), tolerance, lane };
-                if d.strain() > worst.strain() {
-                    worst = d;
-                }
+                worst = worst.worse_of(d);
             }
             Pair { angles, defect: worst }
         };
@@ -255,7 +276,7 @@ impl<B: Scatterer> Bench<'_, B> {
             .iter()
             .take(kept)
             .map(|p| judged(p.angles, u64::from(self.effort.samples / 16), 2))
-            .reduce(|a, b| if b.defect.strain() > a.defect.strain() { b } else { a })
+            .reduce(Pair::worse_of)
     }
 
     /// Discrete directions: the power from `wo` to `wi` is that from `wi` to `wo`, and η² times that of radiance.
@@ -284,9 +305,7 @@ impl<B: Scatterer> Bench<'_, B> {
                         let tolerance =
                             self.effort.sigmas() * error.max(1.0 / f64::from(n)) + 2e-3 * a.mean();
                         let d = Defect { there: a.mean(), back: scale * b.mean(), tolerance, lane };
-                        if d.strain() > worst.strain() {
-                            worst = d;
-                        }
+                        worst = worst.worse_of(d);
                     }
                     let evidence = Evidence::Equality {
                         observed: worst.back,

@@ -6,7 +6,8 @@ mod report;
 
 pub use html::html;
 pub use report::{
-    Acceptance, AlbedoAt, Brightest, Inspection, Report, Standing, SubjectReport, Verdict, WorstPair, degrees,
+    Acceptance, AlbedoAt, Brightest, Inspection, Origin, Report, Standing, SubjectReport, Verdict, WorstPair,
+    degrees,
 };
 
 use super::subject::Subject;
@@ -94,6 +95,7 @@ fn specimen_report(specimen: &Specimen<Bsdf<'_>>, effort: &Effort) -> SubjectRep
     let inspection = Inspection { uv: [0.5; 2], wavelengths: None, examination: examine(specimen, effort) };
     SubjectReport {
         name: specimen.name.to_owned(),
+        origin: Origin::Specimen,
         note: None,
         claims: Some(specimen.claims),
         inspections: vec![inspection],
@@ -105,6 +107,7 @@ fn specimen_report(specimen: &Specimen<Bsdf<'_>>, effort: &Effort) -> SubjectRep
 fn subject_report(subject: &Subject<'_>, options: &Options, effort: &Effort) -> SubjectReport {
     let mut report = SubjectReport {
         name: subject.name().to_owned(),
+        origin: Origin::Material,
         note: None,
         claims: None,
         inspections: Vec::new(),
@@ -181,4 +184,96 @@ fn over_wavelength(subject: &Subject<'_>, seed: u64) -> Vec<AlbedoAt> {
 fn albedo_at(bsdf: &Bsdf<'_>, theta: f32, wavelengths: Option<[f32; LANES]>) -> AlbedoAt {
     let wi = LocalDir::new_unchecked(warp::spherical_direction(theta.to_radians(), 0.7));
     AlbedoAt { theta: f64::from(theta), wavelengths, albedo: bsdf.albedo(wi) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bsdf::conformance::Law;
+    use crate::scene::import::pbrt::{Input, import};
+    use crate::scene::{MemoryFiles, RenderJob, compile};
+    use std::path::Path;
+
+    fn job(materials: &str) -> RenderJob {
+        let files = MemoryFiles::default();
+        let text = format!("WorldBegin {materials}");
+        let input = Input::Text { name: "test", bytes: text.as_bytes(), base: Path::new("") };
+        let mut imported = import(&[input], &files);
+        let desc = imported.scene.take().expect("a scene");
+        compile(desc, &files, &mut imported.diagnostics).expect("compiles")
+    }
+
+    fn verified(materials: &str, options: &Options) -> Report {
+        let job = job(materials);
+        subjects(&Subject::all(&job)[1..], options, &|_, _| {})
+    }
+
+    fn quick() -> Options {
+        Options { effort: Effort { samples: 1 << 13, ..Effort::QUICK }, ..Options::default() }
+    }
+
+    #[test]
+    fn verdicts_follow_the_laws_and_the_claims() {
+        let report = verified(
+            "MakeNamedMaterial \"paint\" \"string type\" \"diffuse\" \"rgb reflectance\" [0.5 0.2 0.1] \
+             MakeNamedMaterial \"printed\" \"string type\" \"modifiedphong\" \"spectrum diffuse\" [400 0 700 0] \
+             \"spectrum specular\" [400 1 700 1] \"float exponent\" 10 \"string lobe\" \"halfway\" \
+             \"string normalization\" \"printed\" \
+             MakeNamedMaterial \"legacy\" \"string type\" \"phong\" \
+             MakeNamedMaterial \"coated\" \"string type\" \"coateddiffuse\" \"float roughness\" 0.5 \
+             MakeNamedMaterial \"blend\" \"string type\" \"mix\" \"string materials\" [\"paint\" \"coated\"] \
+             Material \"interface\"",
+            &quick(),
+        );
+        let [paint, printed, legacy, coated, blend, boundary] = &report.subjects[..] else {
+            panic!("six subjects")
+        };
+        assert_eq!(paint.verdict(), Verdict::Lawful);
+        // B (2.35) to the letter returns 2.866 times the light at normal incidence for n = 10.
+        assert_eq!(printed.verdict(), Verdict::Contradicted);
+        assert_eq!(printed.standing(Law::Energy), Some(Standing::Contradicted));
+        let brightest = printed.brightest().unwrap();
+        assert!((brightest.value - 2.866).abs() < 5e-3, "{brightest:?}");
+        assert_eq!(legacy.verdict(), Verdict::BrokenAsDeclared);
+        assert_eq!(legacy.standing(Law::Reciprocity), Some(Standing::BrokenAsDeclared));
+        // It may return more light than arrives; with these parameters it does not.
+        assert_eq!(legacy.standing(Law::Energy), Some(Standing::Holds));
+        assert!(legacy.worst_pair().unwrap().relative() > 0.1);
+        assert_eq!(coated.verdict(), Verdict::BrokenAsDeclared, "{coated:?}");
+        assert_eq!(blend.verdict(), Verdict::NotExamined);
+        assert_eq!(boundary.verdict(), Verdict::NotExamined);
+        assert!(!report.passes(Acceptance::AsDeclared) && !printed.passes(Acceptance::AsDeclared));
+        assert!(legacy.passes(Acceptance::AsDeclared) && !legacy.passes(Acceptance::Lawful));
+        let page = html(&report, "a < b");
+        assert!(page.contains("a &lt; b") && page.matches("<svg").count() == 8, "{page}");
+    }
+
+    #[test]
+    fn report_does_not_depend_on_the_number_of_threads() {
+        let report = |threads| {
+            let options = Options { threads: Some(threads), ..quick() };
+            verified(
+                "MakeNamedMaterial \"a\" \"string type\" \"coateddiffuse\" \
+                 MakeNamedMaterial \"b\" \"string type\" \"conductor\" \"float roughness\" 0.3",
+                &options,
+            )
+        };
+        assert_eq!(report(1), report(2));
+    }
+
+    #[test]
+    fn dispersive_materials_are_examined_wavelength_by_wavelength() {
+        let options = Options { wavelengths: vec![450.0, 650.0], ..quick() };
+        let report = verified(
+            "MakeNamedMaterial \"prism\" \"string type\" \"dielectric\" \"spectrum eta\" \"glass-F11\"",
+            &options,
+        );
+        let [prism] = &report.subjects[..] else { panic!("one subject") };
+        let wavelengths: Vec<_> = prism.inspections.iter().map(|i| i.wavelengths.unwrap()[0]).collect();
+        assert_eq!(wavelengths, [450.0, 650.0]);
+        assert_eq!(prism.verdict(), Verdict::Lawful);
+        // Fresnel at normal incidence, for either index.
+        let mirror = |i: usize| prism.inspections[i].examination.powers[0].own.reflectance[0];
+        assert!(mirror(0) > mirror(1) + 1e-4, "{} {}", mirror(0), mirror(1));
+    }
 }
