@@ -95,7 +95,7 @@ fn words_and_numbers_outside_their_range_are_refused() {
 Material "modifiedphong" "string lobe" "half" "float exponent" -1
 "#,
         r#"
-scene.pbrt:2:47: error: parameter "exponent" must be from 0 to 1000000, found -1
+scene.pbrt:2:47: error: parameter "exponent" must be from 0 to 10000, found -1
  2 | Material "modifiedphong" "string lobe" "half" "float exponent" -1
    |                                               ^^^^^^^^^^^^^^^^
 scene.pbrt:2:40: error: unknown lobe "half"

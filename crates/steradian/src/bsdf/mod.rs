@@ -288,6 +288,7 @@ impl<'a> Bsdf<'a> {
         all.extend(OrenNayar::specimens().map(|s| s.map(Self::OrenNayar)));
         all.extend(Mirror::specimens().map(|s| s.map(Self::Mirror)));
         all.extend(ModifiedPhong::specimens().map(|s| s.map(Self::ModifiedPhong)));
+        all.extend(LegacyPhong::specimens().map(|s| s.map(Self::LegacyPhong)));
         all.extend(Conductor::specimens().map(|s| s.map(Self::Conductor)));
         all.extend(Dielectric::specimens().map(|s| s.map(Self::Dielectric)));
         all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));

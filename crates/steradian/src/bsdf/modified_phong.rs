@@ -213,6 +213,8 @@ fn halfway_power(wo: LocalDir, wi: LocalDir, n: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bsdf::Bsdf;
+    use crate::bsdf::conformance::{self, Effort};
     use crate::bsdf::quadrature::GAUSS_LEGENDRE;
     use crate::math::Vec3;
     use crate::math::hash::Pcg32;
@@ -282,6 +284,33 @@ mod tests {
                     assert!(rho < last.min(1.0) + 1e-3, "{which:?} n = {n}, {degrees}°: {rho} after {last}");
                     last = rho;
                 }
+            }
+        }
+    }
+
+    fn broken_laws(b: ModifiedPhong) -> Vec<String> {
+        let specimen = Specimen::new("", b.claims(), Bsdf::ModifiedPhong(b));
+        let examination = conformance::examine(&specimen, &Effort::QUICK);
+        examination.contradictions().map(|f| format!("{b:?}: {f}\n")).collect()
+    }
+
+    /// B (2.35) to the letter breaks B (2.31), which it is derived from.
+    #[test]
+    fn the_suite_catches_the_printed_normalisation_about_the_halfway_vector() {
+        for n in [1.0, 10.0, 1000.0] {
+            let found = broken_laws(lobe(n, PhongLobe::Halfway, PhongNormalization::Printed));
+            assert!(!found.is_empty() && found.iter().all(|f| f.contains("energy")), "{n}: {found:?}");
+            assert!(broken_laws(lobe(n, PhongLobe::Mirror, PhongNormalization::Printed)).is_empty(), "{n}");
+        }
+    }
+
+    #[test]
+    fn the_narrowest_lobes_obey_every_law() {
+        for which in [PhongLobe::Mirror, PhongLobe::Halfway] {
+            for sampling in [PhongSampling::Lobe, PhongSampling::ShirleyWang] {
+                let found =
+                    broken_laws(ModifiedPhong { sampling, ..lobe(1e4, which, PhongNormalization::Exact) });
+                assert!(found.is_empty(), "{found:?}");
             }
         }
     }

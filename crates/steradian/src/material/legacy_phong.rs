@@ -26,7 +26,7 @@ impl Declared for LegacyPhongMaterial {
         Parameter::fraction("diffuse", 0.5),
         Parameter::fraction_opt("ambient"),
         Parameter::fraction("specular", 0.5),
-        Parameter::number("exponent", 10.0, 0.0, 1e6),
+        Parameter::number("exponent", 10.0, 0.0, 1e4),
     ];
 
     fn build(arguments: &Arguments) -> Result<Self, Fault> {
