@@ -98,7 +98,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.eval(wo, wi),
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
             Self::CoatedConductor(b) => b.eval(wo, wi, mode),
-            Self::Measured(b) => b.eval(wo, wi),
+            Self::Measured(b) => b.eval(wo, wi, mode),
             Self::Hair(b) => b.eval(wo, wi),
             Self::Stack(b) => b.eval(wo, wi, mode),
         }
@@ -141,7 +141,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.sample(wo, uc, u),
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
-            Self::Measured(b) => b.sample(wo, u),
+            Self::Measured(b) => b.sample(wo, uc, u, mode),
             Self::Hair(b) => b.sample(wo, uc, u),
             Self::Stack(b) => b.sample(wo, uc, u, mode),
         }
@@ -303,10 +303,16 @@ impl<'a> Bsdf<'a> {
 }
 
 /// The data that some specimens refer to.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Cabinet {
     /// Small synthetic measurements.
-    pub measured: Vec<MeasuredTable>,
+    pub measured: Vec<measured::Synthetic>,
     /// Layers of stacks.
     pub stacks: StackCabinet,
+}
+
+impl Default for Cabinet {
+    fn default() -> Self {
+        Self { measured: measured::synthetic_tables(), stacks: StackCabinet::default() }
+    }
 }

@@ -1,0 +1,127 @@
+//! Scattering as it was measured: RGL `.bsdf` files, MERL `.binary` files and goniometer tables in CSV.
+//!
+//! A table is read once and shared; a scattering function is the table at a path's wavelengths.
+
+mod error;
+pub mod rgl;
+mod specimens;
+pub mod tabulate;
+mod tensor;
+mod upsampling;
+mod warp;
+
+pub use error::MeasuredError;
+pub use rgl::RglTable;
+pub use specimens::{Synthetic, tables as synthetic_tables};
+pub use tensor::TensorError;
+
+use super::contract::{BsdfSample, Lobes, Mode};
+use super::specimen::{Claims, Reciprocity, Specimen};
+use crate::math::{LocalDir, Vec2};
+use crate::spectrum::{LANES, Sampled};
+use crate::units::{PdfSolidAngle, PerSteradian};
+use warp::Knot;
+
+/// Tabulated scattering.
+#[derive(Clone, Debug)]
+pub enum MeasuredTable {
+    /// In the adaptive parameterisation of the RGL database.
+    Rgl(RglTable),
+}
+
+/// The formats of measurements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// RGL `.bsdf`.
+    Rgl,
+}
+
+impl Format {
+    /// The format that the bytes show, else the one that the `extension` of the file's name claims.
+    pub fn of(bytes: &[u8], extension: Option<&str>) -> Option<Self> {
+        if bytes.starts_with(tensor::MAGIC) {
+            return Some(Self::Rgl);
+        }
+        match extension?.to_ascii_lowercase().as_str() {
+            "bsdf" => Some(Self::Rgl),
+            _ => None,
+        }
+    }
+}
+
+impl MeasuredTable {
+    /// Reads a file, given the `extension` of its name without the dot.
+    ///
+    /// # Errors
+    /// When the bytes are no measurement of a known format, or a broken one.
+    pub fn read(bytes: &[u8], extension: Option<&str>) -> Result<Self, MeasuredError> {
+        match Format::of(bytes, extension) {
+            Some(Format::Rgl) => Ok(Self::Rgl(RglTable::parse(bytes)?)),
+            None => Err(MeasuredError::UnknownFormat),
+        }
+    }
+}
+
+/// A measured scattering function at a path's wavelengths, alike on both sides of the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured<'a> {
+    table: &'a MeasuredTable,
+    lambda: [f32; LANES],
+    knots: [Knot; LANES],
+}
+
+impl<'a> Measured<'a> {
+    /// The scattering of `table` at `lambda` [nm]; beyond the table's wavelengths, its first or last value holds.
+    pub fn new(table: &'a MeasuredTable, lambda: &[f32; LANES]) -> Self {
+        let knots = match table {
+            MeasuredTable::Rgl(t) => t.knots(lambda),
+        };
+        Self { table, lambda: *lambda, knots }
+    }
+
+    /// f [sr⁻¹].
+    pub fn eval(&self, wo: LocalDir, wi: LocalDir, _mode: Mode) -> Sampled<PerSteradian> {
+        match self.table {
+            MeasuredTable::Rgl(t) => t.eval(wo, wi, &self.lambda, &self.knots),
+        }
+    }
+
+    /// Density of [`Measured::sample`].
+    pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
+        match self.table {
+            MeasuredTable::Rgl(t) => t.pdf(wo, wi),
+        }
+    }
+
+    /// A direction drawn about in proportion to f cosθ.
+    pub fn sample(&self, wo: LocalDir, _uc: f32, u: Vec2, _mode: Mode) -> Option<BsdfSample> {
+        match self.table {
+            MeasuredTable::Rgl(t) => t.sample(wo, u, &self.lambda, &self.knots),
+        }
+    }
+
+    /// Which lobes are present.
+    pub fn lobes(&self) -> Lobes {
+        match self.table {
+            MeasuredTable::Rgl(_) => Lobes { reflection: true, transmission: false },
+        }
+    }
+
+    /// What holds for it: passive as any sample of matter, and as reciprocal as the measurement was.
+    pub fn claims(&self) -> Claims {
+        match self.table {
+            MeasuredTable::Rgl(_) => Claims::CLOSED_FORM.with_reciprocity(Reciprocity::Reported),
+        }
+    }
+
+    /// Examples for the conformance suite.
+    pub fn specimens(tables: &'a [Synthetic]) -> impl Iterator<Item = Specimen<Self>> {
+        tables.iter().map(|s| {
+            let bsdf = Self::new(&s.table, &specimens::WAVELENGTHS);
+            Specimen::new(s.name, bsdf.claims(), bsdf)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
