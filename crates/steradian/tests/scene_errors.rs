@@ -1691,16 +1691,6 @@ scene.pbrt:2:35: error: the unit of this light can only be "intensity", found "r
 fn what_is_not_supported_is_said_at_its_place() {
     expect(
         r#"WorldBegin
-Material "measured" "string filename" "a.bsdf"
-"#,
-        r#"
-scene.pbrt:2:10: error: unsupported: material "measured"
- 2 | Material "measured" "string filename" "a.bsdf"
-   |          ^^^^^^^^^^
-"#,
-    );
-    expect(
-        r#"WorldBegin
 Material "subsurface" "string name" "Skin1"
 "#,
         r#"

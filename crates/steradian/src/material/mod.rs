@@ -12,6 +12,7 @@ pub mod hair;
 pub mod inputs;
 pub mod legacy_phong;
 pub mod mirror;
+pub mod measured;
 pub mod mix;
 pub mod modified_phong;
 pub mod oren_nayar;
@@ -29,6 +30,7 @@ pub use hair::{HairMaterial, Pigment};
 pub use inputs::{CoatInput, Lookup, Metal, Roughness, RoughnessScale};
 pub use legacy_phong::LegacyPhongMaterial;
 pub use mirror::MirrorMaterial;
+pub use measured::MeasuredMaterial;
 pub use mix::{InterfaceMaterial, MixMaterial};
 pub use modified_phong::ModifiedPhongMaterial;
 pub use oren_nayar::OrenNayarMaterial;
@@ -125,6 +127,8 @@ materials! {
     ModifiedPhong(ModifiedPhongMaterial),
     /// Phong's legacy shading: not a BRDF.
     LegacyPhong(LegacyPhongMaterial),
+    /// Scattering as it was measured.
+    Measured(MeasuredMaterial),
     /// A hair.
     Hair(HairMaterial),
     /// A stack of layers.

@@ -3,18 +3,18 @@
 use super::tensor::TensorError;
 use thiserror::Error;
 
-/// Why a file was refused. The text is what one says of the file: it follows its name.
+/// Why a file was refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MeasuredError {
     /// Neither content nor extension is one of the known formats.
-    #[error("is no measurement of a known format: an RGL .bsdf, a MERL .binary or a goniometer table .csv")]
+    #[error("this is neither an RGL .bsdf file, nor a MERL .binary file, nor a goniometer table in CSV")]
     UnknownFormat,
     /// The container of an RGL file is broken or lacks a field.
     #[error(transparent)]
     Tensor(#[from] TensorError),
     /// A field of an RGL file holds a value that makes no sense there.
-    #[error("has a field `{field}` with {what}")]
+    #[error("field `{field}` has {what}")]
     Field {
         /// The field.
         field: &'static str,
@@ -22,13 +22,13 @@ pub enum MeasuredError {
         what: String,
     },
     /// The extents at the start of a MERL file do not account for its length.
-    #[error("is no MERL file: its first 12 bytes are no extents of a table of {bytes} bytes")]
+    #[error("this is no MERL file: its first 12 bytes are not the extents of a table of {bytes} bytes")]
     MerlSize {
         /// Length of the file [B].
         bytes: usize,
     },
     /// A MERL file holds a number that is not finite.
-    #[error("has a value that is not finite, number {index} of channel {channel}")]
+    #[error("value {index} of {channel} is not finite")]
     MerlValue {
         /// Red, green or blue.
         channel: &'static str,
@@ -36,10 +36,10 @@ pub enum MeasuredError {
         index: usize,
     },
     /// A MERL file holds no light at all.
-    #[error("has no value above zero")]
+    #[error("no value is above zero")]
     Black,
     /// Wavelengths are held at the ends of the file's range, which must hold most of the visible light.
-    #[error("covers {first}–{last} nm, but at least 420–680 nm are needed: values are never extrapolated")]
+    #[error("the wavelengths {first}–{last} nm do not cover 420–680 nm, and nothing is extrapolated")]
     Coverage {
         /// First wavelength [nm].
         first: f32,

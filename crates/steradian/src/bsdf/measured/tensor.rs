@@ -20,25 +20,25 @@ const MAX_RANK: u16 = 16;
 #[non_exhaustive]
 pub enum TensorError {
     /// The first bytes are others.
-    #[error("is no tensor file: it does not begin with `tensor_file`")]
+    #[error("this is no tensor file: it does not begin with `tensor_file`")]
     Magic,
     /// Only version 1.0 is known.
-    #[error("is a tensor file of version {0}.{1}; only 1.0 is known")]
+    #[error("tensor file of version {0}.{1}; only 1.0 is known")]
     Version(u8, u8),
     /// The list of fields ends with the file.
-    #[error("ends within the list of its fields: it was cut off")]
+    #[error("the file ends within the list of its fields")]
     Truncated,
     /// A field's data lie beyond the end.
-    #[error("ends before the data of field `{0}`: it was cut off")]
+    #[error("the file ends before the data of field `{0}`")]
     DataTruncated(String),
     /// A field has an unknown type of number, or an absurd rank.
-    #[error("has a field `{0}` of unknown type")]
+    #[error("field `{0}` is of an unknown type")]
     Type(String),
     /// A field is missing.
-    #[error("has no field `{0}`")]
+    #[error("there is no field `{0}`")]
     Missing(&'static str),
     /// A field holds numbers of another type.
-    #[error("has a field `{name}` of {found}, expected {expected}")]
+    #[error("field `{name}` holds {found}, expected {expected}")]
     WrongType {
         /// The field.
         name: &'static str,
@@ -48,7 +48,7 @@ pub enum TensorError {
         expected: &'static str,
     },
     /// A field has another rank or other extents.
-    #[error("has a field `{name}` of shape {found}, expected {expected}")]
+    #[error("field `{name}` has the shape {found}, expected {expected}")]
     Shape {
         /// The field.
         name: &'static str,
@@ -273,10 +273,10 @@ mod tests {
         let file = TensorFile::parse(&bytes).unwrap();
         assert_eq!(file.byte("jacobian"), Err(TensorError::Missing("jacobian")));
         let text = |e: Result<Floats, TensorError>| e.unwrap_err().to_string();
-        assert_eq!(text(file.floats("flag", &[None])), "has a field `flag` of uint8, expected float32");
+        assert_eq!(text(file.floats("flag", &[None])), "field `flag` holds uint8, expected float32");
         assert_eq!(
             text(file.floats("values", &[Some(3), None])),
-            "has a field `values` of shape 2 × 3, expected 3 × n"
+            "field `values` has the shape 2 × 3, expected 3 × n"
         );
     }
 

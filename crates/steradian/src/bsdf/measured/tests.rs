@@ -1,7 +1,7 @@
 use super::specimens::{Metal, metal_file, nodes};
-use super::tabulate::Azimuths;
+use super::tabulate::{Azimuths, Nodes};
 use super::*;
-use crate::bsdf::conformance::{self, Effort, Law};
+use crate::bsdf::conformance::{self, Effort};
 use crate::bsdf::{Bsdf, Cabinet};
 use crate::math::hash::Pcg32;
 use crate::math::warp::{spherical_direction, uniform_sphere};
@@ -28,7 +28,7 @@ fn specimens_obey_the_laws_that_they_claim() {
     for s in Measured::specimens(&cabinet.measured) {
         let s = s.map(Bsdf::Measured);
         for f in conformance::examine(&s, &effort) {
-            assert!(f.holds() || f.law == Law::Reciprocity, "{}: {f:?}", s.name);
+            assert!(f.holds(), "{}: {f:?}", s.name);
         }
     }
 }
@@ -64,8 +64,9 @@ fn a_tabulated_metal_reflects_like_the_metal() {
 
 #[test]
 fn parts_of_the_circle_stand_for_all_of_it() {
-    // 33 nodes over the circle of normals have its symmetries, 32 have not.
-    let table = |azimuths| read(&metal_file(brushed(), &nodes(azimuths, 33)));
+    // The square of normals is cut open at −π, which lies elsewhere in the lobe of a turned direction: values
+    // between nodes differ.
+    let table = |azimuths| read(&metal_file(brushed(), &nodes(azimuths, 64)));
     let tables = [Azimuths::Full(17), Azimuths::Half(9), Azimuths::Quarter(5)].map(table);
     let mut rng = Pcg32::new(6, 1);
     for _ in 0..500 {
@@ -74,7 +75,7 @@ fn parts_of_the_circle_stand_for_all_of_it() {
         let u = Vec2::new(rng.next_f32(), rng.next_f32());
         let [full, half, quarter] =
             [0, 1, 2].map(|i| Measured::new(&tables[i], &LAMBDA).eval(wo, wi, Mode::Radiance)[1]);
-        let close = |a: f32, b: f32| (a - b).abs() <= 1e-3 * (a + 1e-3);
+        let close = |a: f32, b: f32| (a - b).abs() <= 0.03 * (a + 1e-3);
         assert!(close(full, half) && close(full, quarter), "{wo:?} {wi:?}: {full} {half} {quarter}");
         for t in &tables {
             let measured = Measured::new(t, &LAMBDA);
@@ -85,6 +86,137 @@ fn parts_of_the_circle_stand_for_all_of_it() {
             }
         }
     }
+}
+
+/// f and density by Mitsuba 3.9.1 (`measured`, scalar_spectral) of the files that [`write_synthetic_files`] writes, for the
+/// angles (θo, φo, θi, φi) in our notation; its `wi` is our `wo`.
+#[test]
+fn values_and_densities_are_those_of_mitsuba() {
+    let angles = [[30.0, 20.0, 45.0, 190.0], [70.0, 100.0, 60.0, 300.0], [10.0, 250.0, 25.0, 40.0]];
+    for (facets, azimuths, golden) in [
+        (
+            TrowbridgeReitz::new(0.3, 0.3),
+            Azimuths::Isotropic,
+            [
+                ([0.499845, 0.5664332, 0.737733, 0.8563152], 0.7720758),
+                ([0.4470892, 0.493687, 0.6332446, 0.7316343], 0.4905806),
+                ([0.3445292, 0.3915407, 0.5103675, 0.5921737], 0.6739222),
+            ],
+        ),
+        (
+            brushed(),
+            Azimuths::Full(17),
+            [
+                ([0.3042791, 0.344801, 0.4490675, 0.5212494], 0.5059962),
+                ([0.1467932, 0.1623003, 0.2079482, 0.2399522], 0.1608405),
+                ([0.2176637, 0.2473684, 0.3224422, 0.3741245], 0.4621486),
+            ],
+        ),
+        (
+            brushed(),
+            Azimuths::Quarter(5),
+            [
+                ([0.3061064, 0.3469232, 0.4518578, 0.5244875], 0.5091584),
+                ([0.1467932, 0.1623003, 0.2079482, 0.2399522], 0.1608405),
+                ([0.2176637, 0.2473684, 0.3224422, 0.3741245], 0.4621486),
+            ],
+        ),
+    ] {
+        let table = read(&metal_file(facets, &nodes(azimuths, 32)));
+        let measured = Measured::new(&table, &[450.0, 523.0, 587.0, 700.0]);
+        for ([to, po, ti, pi], (f, pdf)) in angles.into_iter().zip(golden) {
+            let (wo, wi) = (at(to, po), at(ti, pi));
+            let close = |a: f32, b: f32| (a / b - 1.0).abs() < 1e-4;
+            let ours = measured.eval(wo, wi, Mode::Radiance);
+            assert!((0..LANES).all(|l| close(ours[l], f[l])), "{azimuths:?} {to}: {ours:?} {f:?}");
+            assert!(
+                close(measured.pdf(wo, wi).0, pdf),
+                "{azimuths:?} {to}: {:?} {pdf}",
+                measured.pdf(wo, wi)
+            );
+        }
+    }
+}
+
+/// Bytes of a file with mistakes in it: changed, cut, or with a piece repeated.
+fn damaged(file: &[u8], rng: &mut Pcg32) -> Vec<u8> {
+    let mut bytes = file.to_vec();
+    let n = bytes.len() as u32;
+    // The list of fields is short and the data are long: half of the mistakes go to either.
+    let mut place = || {
+        let within = if rng.next_u32().is_multiple_of(2) { 500.min(n) } else { n };
+        (rng.next_u32() % within) as usize
+    };
+    match place() % 4 {
+        0 => bytes.truncate(place()),
+        1 => {
+            let (at, from) = (place(), place());
+            let piece: Vec<u8> = bytes[from..].iter().take(40).copied().collect();
+            bytes.splice(at..at, piece);
+        }
+        _ => {
+            for _ in 0..=place() % 4 {
+                let at = place();
+                bytes[at] = [0, 0xff, 0x7f, 0x80, b'9', b',', b'-', b'\n'][place() % 8];
+            }
+        }
+    }
+    bytes
+}
+
+#[test]
+fn damaged_files_are_refused_or_harmless() {
+    let small = Nodes { theta: 3, directions: 5, ..nodes(Azimuths::Quarter(3), 6) };
+    let mut rng = Pcg32::new(9, 1);
+    for file in [metal_file(brushed(), &small)] {
+        assert!(MeasuredTable::read(&file, None).is_ok());
+        for _ in 0..2000 {
+            let bytes = damaged(&file, &mut rng);
+            for extension in [Some("bsdf"), Some("binary"), Some("csv"), None] {
+                let Ok(table) = MeasuredTable::read(&bytes, extension) else { continue };
+                let measured = Measured::new(&table, &LAMBDA);
+                let mut draw = || uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+                let (Some(wo), Some(wi)) = (LocalDir::new(draw()), LocalDir::new(draw())) else { continue };
+                let f = measured.eval(wo, wi, Mode::Radiance);
+                assert!(f.is_finite() && f.min() >= 0.0, "{f:?}");
+                assert!(measured.pdf(wo, wi).0 >= 0.0);
+                let u = Vec2::new(rng.next_f32(), rng.next_f32());
+                if let Some(s) = measured.sample(wo, 0.5, u, Mode::Radiance) {
+                    assert!(s.weight.is_finite(), "{s:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_file_is_said() {
+    let file = metal_file(brushed(), &Nodes { theta: 3, directions: 5, ..nodes(Azimuths::Half(3), 6) });
+    let said = |bytes: &[u8]| MeasuredTable::read(bytes, Some("bsdf")).unwrap_err().to_string();
+    let renamed = |from: &str, to: &str| {
+        let at = file.windows(from.len()).position(|w| w == from.as_bytes()).unwrap();
+        let mut bytes = file.clone();
+        bytes[at..at + to.len()].copy_from_slice(to.as_bytes());
+        said(&bytes)
+    };
+    for name in
+        ["theta_i", "phi_i", "ndf", "sigma", "vndf", "luminance", "spectra", "jacobian", "wavelengths"]
+    {
+        let other = "x".repeat(name.len());
+        assert_eq!(renamed(name, &other), format!("there is no field `{name}`"));
+    }
+    assert_eq!(said(b"\x89PNG\r\n\x1a\n"), "this is no tensor file: it does not begin with `tensor_file`");
+    assert_eq!(said(&file[..file.len() - 1]), "the file ends before the data of field `spectra`");
+    assert_eq!(said(&file[..30]), "the file ends within the list of its fields");
+    let with = |at: usize, v: f32| {
+        let mut bytes = file.clone();
+        bytes[at..at + 4].copy_from_slice(&v.to_le_bytes());
+        said(&bytes)
+    };
+    let last = file.len() - 4;
+    assert_eq!(with(last, f32::NAN), "field `spectra` has a value of NaN");
+    assert_eq!(with(last, -1.0), "field `spectra` has a value of -1");
+    assert_eq!(with(last, f32::INFINITY), "field `spectra` has a value of inf");
 }
 
 /// Writes the files that are compared with Mitsuba's `measured` plugin, with our values of f and the density.

@@ -11,7 +11,7 @@ use crate::scene::source::Span;
 use crate::scene::text::Text;
 
 /// Classes of the format that cannot be rendered yet.
-const UNSUPPORTED: &[&str] = &["measured", "subsurface"];
+const UNSUPPORTED: &[&str] = &["subsurface"];
 const V3_CLASSES: &[&str] = &[
     "matte",
     "plastic",

@@ -1,0 +1,79 @@
+//! Wrong files of measurements: what a user sees, at the place in the scene that names the file.
+
+#[path = "support/errors.rs"]
+mod errors;
+
+use errors::expect_with;
+use std::f32::consts::FRAC_1_PI;
+use steradian::bsdf::measured::tabulate::{Azimuths, Nodes, tabulate};
+use steradian::optics::TrowbridgeReitz;
+
+/// A small `.bsdf` file of a grey surface.
+fn bsdf() -> Vec<u8> {
+    let wavelengths = vec![400.0, 550.0, 700.0];
+    let nodes = Nodes { theta: 3, azimuths: Azimuths::Isotropic, facets: 8, directions: 8, wavelengths };
+    tabulate(&TrowbridgeReitz::new(0.5, 0.5), &nodes, |_, _, _| 0.5 * FRAC_1_PI)
+}
+
+/// Expects `message` at the file's name in a scene that uses `bytes` under that name.
+#[track_caller]
+fn expect(name: &str, bytes: &[u8], message: &str) {
+    let line = format!(r#"Material "measured" "string filename" "{name}""#);
+    let marks = "^".repeat("\"string filename\"".len());
+    expect_with(
+        &format!("WorldBegin\n{line}\nShape \"sphere\"\n"),
+        [(name, bytes)],
+        &format!(
+            "scene.pbrt:2:21: error: cannot read measurement {name}: {message}\n 2 | {line}\n   |{}{marks}",
+            " ".repeat(21)
+        ),
+    );
+}
+
+#[test]
+fn a_file_that_was_cut_off_is_named() {
+    let file = bsdf();
+    expect("a.bsdf", &file[..file.len() - 100], "the file ends before the data of field `spectra`");
+    expect("a.bsdf", &file[..30], "the file ends within the list of its fields");
+    expect("a.bsdf", b"", "this is no tensor file: it does not begin with `tensor_file`");
+}
+
+#[test]
+fn another_file_under_the_name_of_a_measurement_is_told_apart() {
+    let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR";
+    expect("a.bsdf", png, "this is no tensor file: it does not begin with `tensor_file`");
+    expect(
+        "a.png",
+        png,
+        "this is neither an RGL .bsdf file, nor a MERL .binary file, nor a goniometer table in CSV",
+    );
+}
+
+#[test]
+fn a_missing_field_and_a_wrong_value_are_named() {
+    let mut file = bsdf();
+    let at = file.windows(5).position(|w| w == b"sigma").unwrap();
+    file[at] = b'S';
+    expect("a.bsdf", &file, "there is no field `sigma`");
+    let mut file = bsdf();
+    let end = file.len();
+    file[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
+    expect("a.bsdf", &file, "field `spectra` has a value of NaN");
+}
+
+#[test]
+fn a_measurement_of_half_of_the_visible_range_is_not_extrapolated() {
+    let nodes = Nodes {
+        theta: 3,
+        azimuths: Azimuths::Isotropic,
+        facets: 8,
+        directions: 8,
+        wavelengths: vec![500.0, 700.0],
+    };
+    let file = tabulate(&TrowbridgeReitz::new(0.5, 0.5), &nodes, |_, _, _| 0.1);
+    expect(
+        "a.bsdf",
+        &file,
+        "the wavelengths 500–700 nm do not cover 420–680 nm, and nothing is extrapolated",
+    );
+}
