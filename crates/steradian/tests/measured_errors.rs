@@ -3,7 +3,7 @@
 #[path = "support/errors.rs"]
 mod errors;
 
-use errors::expect_with;
+use errors::{expect, expect_with};
 use std::f32::consts::FRAC_1_PI;
 use steradian::bsdf::measured::tabulate::{Azimuths, Nodes, tabulate};
 use steradian::optics::TrowbridgeReitz;
@@ -17,7 +17,7 @@ fn bsdf() -> Vec<u8> {
 
 /// Expects `message` at the file's name in a scene that uses `bytes` under that name.
 #[track_caller]
-fn expect(name: &str, bytes: &[u8], message: &str) {
+fn refused(name: &str, bytes: &[u8], message: &str) {
     let line = format!(r#"Material "measured" "string filename" "{name}""#);
     let marks = "^".repeat("\"string filename\"".len());
     expect_with(
@@ -33,16 +33,16 @@ fn expect(name: &str, bytes: &[u8], message: &str) {
 #[test]
 fn a_file_that_was_cut_off_is_named() {
     let file = bsdf();
-    expect("a.bsdf", &file[..file.len() - 100], "the file ends before the data of field `spectra`");
-    expect("a.bsdf", &file[..30], "the file ends within the list of its fields");
-    expect("a.bsdf", b"", "this is no tensor file: it does not begin with `tensor_file`");
+    refused("a.bsdf", &file[..file.len() - 100], "the file ends before the data of field `spectra`");
+    refused("a.bsdf", &file[..30], "the file ends within the list of its fields");
+    refused("a.bsdf", b"", "this is no tensor file: it does not begin with `tensor_file`");
 }
 
 #[test]
 fn another_file_under_the_name_of_a_measurement_is_told_apart() {
     let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR";
-    expect("a.bsdf", png, "this is no tensor file: it does not begin with `tensor_file`");
-    expect(
+    refused("a.bsdf", png, "this is no tensor file: it does not begin with `tensor_file`");
+    refused(
         "a.png",
         png,
         "this is neither an RGL .bsdf file, nor a MERL .binary file, nor a goniometer table in CSV",
@@ -54,11 +54,11 @@ fn a_missing_field_and_a_wrong_value_are_named() {
     let mut file = bsdf();
     let at = file.windows(5).position(|w| w == b"sigma").unwrap();
     file[at] = b'S';
-    expect("a.bsdf", &file, "there is no field `sigma`");
+    refused("a.bsdf", &file, "there is no field `sigma`");
     let mut file = bsdf();
     let end = file.len();
     file[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
-    expect("a.bsdf", &file, "field `spectra` has a value of NaN");
+    refused("a.bsdf", &file, "field `spectra` has a value of NaN");
 }
 
 #[test]
@@ -71,9 +71,63 @@ fn a_measurement_of_half_of_the_visible_range_is_not_extrapolated() {
         wavelengths: vec![500.0, 700.0],
     };
     let file = tabulate(&TrowbridgeReitz::new(0.5, 0.5), &nodes, |_, _, _| 0.1);
-    expect(
+    refused(
         "a.bsdf",
         &file,
         "the wavelengths 500–700 nm do not cover 420–680 nm, and nothing is extrapolated",
+    );
+}
+
+#[test]
+fn mistakes_in_a_goniometer_table_have_their_line_and_column() {
+    let header = "theta_i [deg], phi_i [deg], theta_o [deg], phi_o [deg], f [1/sr]";
+    let table = |rows: &str| format!("# a sheet\n{header}\n{rows}").into_bytes();
+    refused("a.csv", &table("0, 0, 0, 0, 0.1\n0, 0, 30, O, 0.1\n"), "line 4, column 11: `O` is not a number");
+    refused(
+        "a.csv",
+        &table("0, 0, 0, 0, 0.1\n0, 0, 30, 0, -0.1\n"),
+        "line 4, column 14: f = -0.1 is not a number from zero up",
+    );
+    refused(
+        "a.csv",
+        &table("0, 0, 0, 0, 0.1\n60, 0, 30, 0, 0.1\n"),
+        "there is no row for theta_i 0°, phi_i 0°, theta_o 30°, phi_o 0°",
+    );
+    refused(
+        "a.csv",
+        b"wavelength,value\n",
+        "line 1, column 1: column `wavelength`, expected `theta_i [deg]`",
+    );
+}
+
+#[test]
+fn a_merl_file_that_was_cut_off_is_named() {
+    let mut file = Vec::new();
+    file.extend([2_i32; 3].iter().flat_map(|n| n.to_le_bytes()));
+    file.extend([0.5_f64; 23].iter().flat_map(|v| v.to_le_bytes()));
+    refused(
+        "a.binary",
+        &file,
+        "this is no MERL file: its first 12 bytes are not the extents of a table of 196 bytes",
+    );
+}
+
+#[test]
+fn a_measurement_without_a_file_is_no_material() {
+    expect(
+        "WorldBegin\nMaterial \"measured\"\n",
+        r#"
+scene.pbrt:2:10: error: material "measured" needs a parameter "filename"
+ 2 | Material "measured"
+   |          ^^^^^^^^^^
+"#,
+    );
+    expect(
+        "WorldBegin\nMaterial \"measured\" \"string filename\" \"a.bsdf\"\nShape \"sphere\"\n",
+        r#"
+scene.pbrt:2:39: error: cannot read a.bsdf: no such file
+ 2 | Material "measured" "string filename" "a.bsdf"
+   |                                       ^^^^^^^^
+"#,
     );
 }

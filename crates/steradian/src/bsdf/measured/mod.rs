@@ -2,7 +2,11 @@
 //!
 //! A table is read once and shared; a scattering function is the table at a path's wavelengths.
 
+mod axis;
+mod csv;
 mod error;
+pub mod goniometer;
+pub mod merl;
 pub mod rgl;
 mod specimens;
 pub mod tabulate;
@@ -11,6 +15,8 @@ mod upsampling;
 mod warp;
 
 pub use error::MeasuredError;
+pub use goniometer::GoniometerTable;
+pub use merl::MerlTable;
 pub use rgl::RglTable;
 pub use specimens::{Synthetic, tables as synthetic_tables};
 pub use tensor::TensorError;
@@ -27,6 +33,10 @@ use warp::Knot;
 pub enum MeasuredTable {
     /// In the adaptive parameterisation of the RGL database.
     Rgl(RglTable),
+    /// In half and difference angles, as of the MERL database.
+    Merl(MerlTable),
+    /// On a grid of incident and scattered angles.
+    Goniometer(GoniometerTable),
 }
 
 /// The formats of measurements.
@@ -34,6 +44,10 @@ pub enum MeasuredTable {
 pub enum Format {
     /// RGL `.bsdf`.
     Rgl,
+    /// MERL `.binary`.
+    Merl,
+    /// A goniometer table in CSV.
+    Goniometer,
 }
 
 impl Format {
@@ -42,8 +56,16 @@ impl Format {
         if bytes.starts_with(tensor::MAGIC) {
             return Some(Self::Rgl);
         }
+        if merl::Extents::of(bytes).is_some() {
+            return Some(Self::Merl);
+        }
+        if csv::Text::is_one(bytes) {
+            return Some(Self::Goniometer);
+        }
         match extension?.to_ascii_lowercase().as_str() {
             "bsdf" => Some(Self::Rgl),
+            "binary" => Some(Self::Merl),
+            "csv" => Some(Self::Goniometer),
             _ => None,
         }
     }
@@ -57,6 +79,8 @@ impl MeasuredTable {
     pub fn read(bytes: &[u8], extension: Option<&str>) -> Result<Self, MeasuredError> {
         match Format::of(bytes, extension) {
             Some(Format::Rgl) => Ok(Self::Rgl(RglTable::parse(bytes)?)),
+            Some(Format::Merl) => Ok(Self::Merl(MerlTable::parse(bytes)?)),
+            Some(Format::Goniometer) => Ok(Self::Goniometer(GoniometerTable::parse(bytes)?)),
             None => Err(MeasuredError::UnknownFormat),
         }
     }
@@ -75,14 +99,18 @@ impl<'a> Measured<'a> {
     pub fn new(table: &'a MeasuredTable, lambda: &[f32; LANES]) -> Self {
         let knots = match table {
             MeasuredTable::Rgl(t) => t.knots(lambda),
+            MeasuredTable::Merl(_) => [Knot::default(); LANES],
+            MeasuredTable::Goniometer(t) => t.knots(lambda),
         };
         Self { table, lambda: *lambda, knots }
     }
 
     /// f [sr⁻¹].
-    pub fn eval(&self, wo: LocalDir, wi: LocalDir, _mode: Mode) -> Sampled<PerSteradian> {
+    pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
         match self.table {
             MeasuredTable::Rgl(t) => t.eval(wo, wi, &self.lambda, &self.knots),
+            MeasuredTable::Merl(t) => t.eval(wo, wi, &self.lambda),
+            MeasuredTable::Goniometer(t) => t.eval(wo, wi, mode, &self.knots),
         }
     }
 
@@ -90,27 +118,35 @@ impl<'a> Measured<'a> {
     pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
         match self.table {
             MeasuredTable::Rgl(t) => t.pdf(wo, wi),
+            MeasuredTable::Merl(t) => t.pdf(wo, wi),
+            MeasuredTable::Goniometer(t) => t.pdf(wo, wi),
         }
     }
 
     /// A direction drawn about in proportion to f cosθ.
-    pub fn sample(&self, wo: LocalDir, _uc: f32, u: Vec2, _mode: Mode) -> Option<BsdfSample> {
+    pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2, mode: Mode) -> Option<BsdfSample> {
         match self.table {
             MeasuredTable::Rgl(t) => t.sample(wo, u, &self.lambda, &self.knots),
+            MeasuredTable::Merl(t) => t.sample(wo, uc, u, &self.lambda),
+            MeasuredTable::Goniometer(t) => t.sample(wo, uc, u, mode, &self.knots),
         }
     }
 
     /// Which lobes are present.
     pub fn lobes(&self) -> Lobes {
         match self.table {
-            MeasuredTable::Rgl(_) => Lobes { reflection: true, transmission: false },
+            MeasuredTable::Rgl(_) | MeasuredTable::Merl(_) => Lobes { reflection: true, transmission: false },
+            MeasuredTable::Goniometer(t) => t.lobes(),
         }
     }
 
     /// What holds for it: passive as any sample of matter, and as reciprocal as the measurement was.
     pub fn claims(&self) -> Claims {
         match self.table {
-            MeasuredTable::Rgl(_) => Claims::CLOSED_FORM.with_reciprocity(Reciprocity::Reported),
+            MeasuredTable::Rgl(_) | MeasuredTable::Goniometer(_) => {
+                Claims::CLOSED_FORM.with_reciprocity(Reciprocity::Reported)
+            }
+            MeasuredTable::Merl(_) => Claims::CLOSED_FORM,
         }
     }
 

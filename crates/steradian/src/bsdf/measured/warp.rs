@@ -262,7 +262,7 @@ fn ramp_integral(t: f32, ends: [f32; 2]) -> f32 {
 }
 
 /// The t ∈ [0, 1] at which [`ramp_integral`] reaches `area`.
-fn ramp_inverse(area: f32, ends: [f32; 2]) -> f32 {
+pub(super) fn ramp_inverse(area: f32, ends: [f32; 2]) -> f32 {
     let [a, b] = ends;
     // The root in the form that does not cancel where the ramp is flat: 2c / (a + √(a² + 2(b − a)c)).
     let divisor = a + safe_sqrt(a * a + 2.0 * (b - a) * area);
