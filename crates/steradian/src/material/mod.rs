@@ -259,7 +259,11 @@ impl Materials {
     /// The wavelengths for which all of the material's spectra have data [nm]; all of them until it is said. Beyond them the
     /// material is not known: its spectra are zero there.
     pub fn range(&self, id: MaterialId) -> (f32, f32) {
-        self.entries[id.0 as usize].range
+        let entry = &self.entries[id.0 as usize];
+        match &entry.material {
+            Material::Measured(m) => m.table.range(),
+            _ => entry.range,
+        }
     }
 
     /// Says for which wavelengths there are data.

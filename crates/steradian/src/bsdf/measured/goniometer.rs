@@ -20,20 +20,19 @@
 //! polar angle or wavelength, its value holds. Light arrives from the incident side, whichever side a path starts from:
 //! what was measured is not made reciprocal. Light from below sees the sample as light from above does.
 //!
-//! Directions are drawn, for each known direction among the nodes, from a constant density in the cell around each
-//! (θo, φo), in proportion to f cosθ there; a tenth follows the cosine alone, so that nothing is missed between nodes.
+//! Directions are drawn in proportion to f cosθ, averaged over wavelengths and bilinear on a fine grid of (θo, φo), for
+//! each node of the incident angles; between those, densities are interpolated. A tenth follows the cosine alone, so that
+//! nothing is missed where a measurement is zero.
 
-use super::axis::{Axis, Between};
+use super::axis::{Axis, Closure};
 use super::csv::{Row, Text};
 use super::error::MeasuredError;
-use super::warp::Knot;
+use super::warp::{Blend, Grid, Knot, Warp};
 use crate::bsdf::contract::{BsdfSample, Lobe, Lobes, Mode, Side};
-use crate::math::distribution::AliasTable;
-use crate::math::float::ONE_MINUS_EPSILON;
-use crate::math::{LocalDir, Vec2, Vec3};
+use crate::math::{LocalDir, Vec2, Vec3, warp::spherical_direction};
 use crate::spectrum::{LANES, Sampled};
 use crate::units::{Density, PdfSolidAngle, PerSteradian};
-use std::f32::consts::{FRAC_PI_2, PI};
+use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 /// Share of the samples that follow the cosine.
 const COSINE_SHARE: f64 = 0.1;
@@ -44,20 +43,19 @@ const WIDEST_GAP: f32 = 0.51 * PI;
 /// A measurement on a grid of angles.
 #[derive(Clone, Debug)]
 pub struct GoniometerTable {
-    incident: [Axis; 2],
+    theta_i: Axis,
+    phi_i: Axis,
     isotropic: bool,
     /// θo up to a right angle; may be absent.
     reflected: Option<Axis>,
     /// θo beyond it; may be absent.
     transmitted: Option<Axis>,
-    phi: Axis,
+    phi_o: Axis,
     wavelengths: Vec<f32>,
     /// f [sr⁻¹] by θi, φi, θo, φo, wavelength; the last fastest.
     values: Vec<f32>,
-    /// For each incident node, a distribution over the cells (θo, φo).
-    cells: Vec<AliasTable>,
-    /// Solid angle of each cell [sr].
-    solid_angle: Vec<f32>,
+    /// For each incident node, the density of drawn directions over θo (x) and φo (y).
+    density: Warp,
 }
 
 /// Angles of a direction [rad].
@@ -68,7 +66,9 @@ struct Angles {
 }
 
 impl Angles {
-    fn of(w: Vec3) -> Self {
+    /// Those of `w` seen from the side of `known`, by point reflection.
+    fn of(w: LocalDir, known: LocalDir) -> Self {
+        let w: Vec3 = *w * known.z.signum();
         Self { theta: w.truncate().length().atan2(w.z), phi: w.y.atan2(w.x) }
     }
 }
@@ -86,37 +86,36 @@ impl GoniometerTable {
         let text = Text::parse(text)?;
         let nodes: [Vec<f32>; 4] = std::array::from_fn(|i| distinct(&text.rows, i));
         let values = grid(&text, &nodes)?;
-        let wavelengths = text.wavelengths;
+        if values.iter().all(|&v| v == 0.0) {
+            return Err(MeasuredError::Black);
+        }
         let radians = |nodes: &[f32]| nodes.iter().map(|a| a.to_radians()).collect::<Vec<_>>();
         let [theta_i, phi_i, theta_o, phi_o] = &nodes;
         let isotropic = phi_i.len() == 1;
         let (below, above): (Vec<f32>, Vec<f32>) = theta_o.iter().partition(|&&t| t <= 90.0);
-        let polar =
-            |nodes: Vec<f32>, min, max| (!nodes.is_empty()).then(|| Axis::held(radians(&nodes), min, max));
-        let from_incident: Vec<f32> =
-            if isotropic { phi_o.iter().map(|p| p - phi_i[0]).collect() } else { phi_o.clone() };
+        let polar = |nodes: Vec<f32>| (!nodes.is_empty()).then(|| Axis::held(radians(&nodes)));
+        let turned = if isotropic { phi_i[0] } else { 0.0 };
+        let phi_o: Vec<f32> = phi_o.iter().map(|p| p - turned).collect();
         let mut table = Self {
-            incident: [Axis::held(radians(theta_i), 0.0, FRAC_PI_2), Axis::azimuths(radians(phi_i), false)],
+            theta_i: Axis::held(radians(theta_i)),
+            phi_i: Axis::azimuths(radians(phi_i), false),
             isotropic,
-            reflected: polar(below, 0.0, FRAC_PI_2),
-            transmitted: polar(above, FRAC_PI_2, PI),
-            phi: Axis::azimuths(radians(&from_incident), isotropic),
-            wavelengths,
+            reflected: polar(below),
+            transmitted: polar(above),
+            phi_o: Axis::azimuths(radians(&phi_o), isotropic),
+            wavelengths: text.wavelengths,
             values,
-            cells: Vec::new(),
-            solid_angle: Vec::new(),
+            density: Warp::default(),
         };
         table.check_azimuths()?;
-        table.distribute()?;
+        table.density = table.distribution()?;
         Ok(table)
     }
 
     fn check_azimuths(&self) -> Result<(), MeasuredError> {
-        let named =
-            [("phi_i", &self.incident[1], !self.isotropic), ("phi_o", &self.phi, self.phi.images() < 2.0)];
-        for (name, axis, is_circle) in named {
+        for (name, axis) in [("phi_i", &self.phi_i), ("phi_o", &self.phi_o)] {
             let gap = axis.widest_gap();
-            if is_circle && axis.len() > 1 && gap > WIDEST_GAP {
+            if axis.closure() == Closure::Circle && axis.len() > 1 && gap > WIDEST_GAP {
                 let gap = gap.to_degrees().round();
                 return Err(MeasuredError::Grid(format!("{name} leaves a gap of {gap}° in its circle")));
             }
@@ -124,58 +123,71 @@ impl GoniometerTable {
         Ok(())
     }
 
-    /// Builds the distributions over cells.
-    fn distribute(&mut self) -> Result<(), MeasuredError> {
-        let theta = self.theta_cells();
-        let channels = self.channels();
-        let mut cosine = Vec::new();
-        for t in &theta {
-            let (z0, z1) = (f64::from(t[0]).cos(), f64::from(t[1]).cos());
-            for p in 0..self.phi.len() {
-                let cell = self.phi.cell(p);
-                let width = f64::from((cell.end - cell.start) * self.phi.images());
-                self.solid_angle.push((width * (z0 - z1)) as f32);
-                cosine.push(width * 0.5 * (z0 * z0 - z1 * z1).abs());
+    /// The densities that directions are drawn with.
+    fn distribution(&self) -> Result<Warp, MeasuredError> {
+        // About two patches a node, so that lobes keep their width; one border is the horizon where both sides are there.
+        let side = |axis: &Option<Axis>| axis.as_ref().map_or(0, Axis::len);
+        let sides = [&self.reflected, &self.transmitted].into_iter().flatten().count();
+        let patches = (2 * side(&self.reflected).max(side(&self.transmitted))).clamp(8, 90) * sides;
+        let images = if self.phi_o.closure() == Closure::Mirrored { 4 } else { 2 };
+        let grid = Grid { nx: patches + 1, ny: (images * self.phi_o.len()).clamp(8, 72) + 1 };
+        let slices = self.theta_i.len() * self.phi_i.len();
+        let mut values = Vec::with_capacity(slices * grid.len());
+        let (mut power, mut cosine) = (Vec::new(), Vec::new());
+        for node in 0..slices {
+            power.clear();
+            cosine.clear();
+            for i in 0..grid.len() {
+                let at = Vec2::new(
+                    (i % grid.nx) as f32 / (grid.nx - 1) as f32,
+                    (i / grid.nx) as f32 / (grid.ny - 1) as f32,
+                );
+                let Angles { theta, phi } = self.angles_at(at);
+                // sin π is not zero in floats, and may be negative.
+                let area = f64::from(theta.cos().abs() * theta.sin().max(0.0));
+                let spectrum = |row: usize| self.spectrum(row).iter().map(|&v| f64::from(v)).sum::<f64>();
+                let f: f64 = self.rows(node, theta, phi).map(|(row, w)| f64::from(w) * spectrum(row)).sum();
+                power.push(f * area);
+                cosine.push(area);
             }
+            let (total_power, total_cosine) = (power.iter().sum::<f64>(), cosine.iter().sum::<f64>());
+            let share = if total_power > 0.0 { COSINE_SHARE } else { 1.0 };
+            let scale = (1.0 - share) / total_power.max(f64::MIN_POSITIVE);
+            let pairs = power.iter().zip(&cosine);
+            values.extend(pairs.map(|(p, c)| (p * scale + share * c / total_cosine) as f32));
         }
-        let total_cosine: f64 = cosine.iter().sum();
-        for values in self.values.chunks_exact(cosine.len() * channels) {
-            let mean =
-                |i: usize| values[i * channels..][..channels].iter().map(|&v| f64::from(v)).sum::<f64>();
-            let power: Vec<f64> = cosine.iter().enumerate().map(|(i, c)| mean(i) * c).collect();
-            let total: f64 = power.iter().sum();
-            let share = if total > 0.0 { COSINE_SHARE } else { 1.0 };
-            let weight = |(p, c): (&f64, &f64)| {
-                let p = if total > 0.0 { p / total } else { 0.0 };
-                ((1.0 - share) * p + share * c / total_cosine) as f32
-            };
-            let weights: Vec<f32> = power.iter().zip(&cosine).map(weight).collect();
-            // Each side has some cosine; a single angle of 180° alone, say, fills its side.
-            let table = AliasTable::new(&weights);
-            self.cells.push(table.ok_or_else(|| MeasuredError::Grid("the cells are empty".to_owned()))?);
-        }
-        if self.values.iter().all(|&v| v == 0.0) {
-            return Err(MeasuredError::Black);
-        }
-        Ok(())
+        Warp::new(grid, values).map_err(|_| MeasuredError::Black)
     }
 
-    /// Borders of the cells along θo: reflection, then transmission.
-    fn theta_cells(&self) -> Vec<[f32; 2]> {
-        let of = |axis: &Axis| {
-            let cells = (0..axis.len()).map(|i| axis.cell(i));
-            cells.map(|c| [c.start, c.end]).collect::<Vec<_>>()
-        };
-        let sides = [&self.reflected, &self.transmitted];
-        sides.into_iter().flatten().flat_map(of).collect()
+    /// First and last θo of the sides that were measured.
+    fn span(&self) -> [f32; 2] {
+        let first = if self.reflected.is_some() { 0.0 } else { FRAC_PI_2 };
+        let last = if self.transmitted.is_some() { PI } else { FRAC_PI_2 };
+        [first, last]
     }
 
-    fn channels(&self) -> usize {
-        self.wavelengths.len().max(1)
+    /// The angles of a point of the square of densities, as the table counts them.
+    fn angles_at(&self, p: Vec2) -> Angles {
+        let [first, last] = self.span();
+        Angles { theta: first + p.x * (last - first), phi: p.y * TAU }
     }
 
-    fn n_theta(&self) -> usize {
-        [&self.reflected, &self.transmitted].into_iter().flatten().map(Axis::len).sum()
+    /// The inverse of [`GoniometerTable::angles_at`].
+    fn point_at(&self, angles: Angles) -> Vec2 {
+        let [first, last] = self.span();
+        Vec2::new((angles.theta - first) / (last - first), (angles.phi / TAU).rem_euclid(1.0))
+    }
+
+    /// Density per solid angle of a density on the square at θo: dω = sinθ dθ dφ.
+    fn per_solid_angle(&self, density: f32, theta: f32) -> PdfSolidAngle {
+        let [first, last] = self.span();
+        // At the poles, the density vanishes with the sine.
+        PdfSolidAngle(density / (theta.sin().max(1e-6) * (last - first) * TAU))
+    }
+
+    /// The table's wavelengths [nm]; none where it has no colour.
+    pub(super) fn wavelengths(&self) -> &[f32] {
+        &self.wavelengths
     }
 
     /// Places of `lambda` [nm] among the table's wavelengths, whose ends are held.
@@ -203,33 +215,19 @@ impl GoniometerTable {
         if light.z == 0.0 || seen.z == 0.0 {
             return Sampled::ZERO;
         }
-        let flip = light.z.signum();
-        let (light, seen) = (Angles::of(*light * flip), Angles::of(*seen * flip));
-        let Some((theta, first)) = self.polar(seen.theta) else { return Sampled::ZERO };
-        let incident = self.incident.each_ref();
-        let [ti, pi] = [incident[0].locate(light.theta), incident[1].locate(light.phi)];
-        let po = self.phi.locate(self.azimuth(light, seen));
-        let (n_phi, channels) = (self.phi.len(), self.channels());
+        let (light, seen) = (Angles::of(light, light), Angles::of(seen, light));
+        let phi = self.azimuth(light, seen);
         let mut f = Sampled::ZERO;
-        for (a, wa) in parts(ti) {
-            for (b, wb) in parts(pi) {
-                for (c, wc) in parts(theta) {
-                    for (d, wd) in parts(po) {
-                        let weight = wa * wb * wc * wd;
-                        if weight == 0.0 {
-                            continue;
-                        }
-                        let node = self.incident_node(a, b);
-                        let row = (node * self.n_theta() + first + c) * n_phi + d;
-                        let spectrum = &self.values[row * channels..][..channels];
-                        f += Sampled::from_fn(|lane| {
-                            let Knot { index, share } = knots[lane];
-                            let i = index as usize;
-                            let (v0, v1) = (spectrum[i], spectrum[(i + 1).min(channels - 1)]);
-                            weight * (v0 + share * (v1 - v0))
-                        });
-                    }
-                }
+        for (node, outer) in self.incident(light) {
+            for (row, inner) in self.rows(node, seen.theta, phi) {
+                let spectrum = self.spectrum(row);
+                let last = spectrum.len() - 1;
+                f += Sampled::from_fn(|lane| {
+                    let Knot { index, share } = knots[lane];
+                    let i = index as usize;
+                    let (v0, v1) = (spectrum[i], spectrum[(i + 1).min(last)]);
+                    outer * inner * (v0 + share * (v1 - v0))
+                });
             }
         }
         f
@@ -240,23 +238,18 @@ impl GoniometerTable {
         if wo.z == 0.0 || wi.z == 0.0 {
             return PdfSolidAngle(0.0);
         }
-        let flip = wo.z.signum();
-        let (known, other) = (Angles::of(*wo * flip), Angles::of(*wi * flip));
-        let axis = if other.theta <= FRAC_PI_2 { &self.reflected } else { &self.transmitted };
-        let Some(axis) = axis else { return PdfSolidAngle(0.0) };
-        let (_, first) = self.side(other.theta);
-        let cell = (first + axis.cell_at(other.theta)) * self.phi.len()
-            + self.phi.cell_at(self.azimuth(known, other));
-        let probability: f32 =
-            self.known_nodes(known).map(|(node, w)| w * self.cells[node].probability(cell)).sum();
-        PdfSolidAngle(probability / self.solid_angle[cell])
+        let (known, other) = (Angles::of(wo, wo), Angles::of(wi, wo));
+        if self.side(other.theta).is_none() {
+            return PdfSolidAngle(0.0);
+        }
+        let p = self.point_at(Angles { phi: self.azimuth(known, other), ..other });
+        self.per_solid_angle(self.density.density(p, &Blend::of(self.incident(known))), other.theta)
     }
 
-    /// A direction drawn from the cells of one of the nodes around the known direction.
+    /// A direction drawn as if `wo` were the incident side, on either side of the surface.
     pub(super) fn sample(
         &self,
         wo: LocalDir,
-        uc: f32,
         u: Vec2,
         mode: Mode,
         knots: &[Knot; LANES],
@@ -264,33 +257,12 @@ impl GoniometerTable {
         if wo.z == 0.0 {
             return None;
         }
-        let flip = wo.z.signum();
-        let known = Angles::of(*wo * flip);
-        let mut left = uc;
-        let mut chosen = None;
-        for (node, weight) in self.known_nodes(known).filter(|n| n.1 > 0.0) {
-            chosen = Some((node, (left / weight).min(ONE_MINUS_EPSILON)));
-            if left < weight {
-                break;
-            }
-            left -= weight;
-        }
-        let (node, uc) = chosen?;
-        let drawn = self.cells[node].sample(u.x);
-        let (i, j) = (drawn.index / self.phi.len(), drawn.index % self.phi.len());
-        let (theta, phi) = (self.theta_cell(i)?, self.phi.cell(j));
-        let z = theta[0].cos() + drawn.remapped * (theta[1].cos() - theta[0].cos());
-        let mut phi = phi.start + u.y * (phi.end - phi.start);
-        if self.phi.images() > 1.0 && uc < 0.5 {
-            phi = -phi;
-        }
-        if self.isotropic {
-            phi += known.phi;
-        }
-        let (sin, cos) = phi.sin_cos();
-        let r = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
-        let wi = LocalDir::new(Vec3::new(r * cos, r * sin, z) * flip)?;
-        let pdf = self.pdf(wo, wi);
+        let known = Angles::of(wo, wo);
+        let drawn = self.density.sample(u, &Blend::of(self.incident(known)));
+        let Angles { theta, phi } = self.angles_at(drawn.p);
+        let phi = if self.isotropic { phi + known.phi } else { phi };
+        let wi = LocalDir::new(spherical_direction(theta, phi) * wo.z.signum())?;
+        let pdf = self.per_solid_angle(drawn.density, theta);
         if wi.z == 0.0 || !(pdf.0 > 0.0) {
             return None;
         }
@@ -311,41 +283,46 @@ impl GoniometerTable {
     }
 
     /// The axis of θo on the side of `theta`, and the number of its first node.
-    fn side(&self, theta: f32) -> (Option<&Axis>, usize) {
+    fn side(&self, theta: f32) -> Option<(&Axis, usize)> {
         if theta <= FRAC_PI_2 {
-            (self.reflected.as_ref(), 0)
+            Some((self.reflected.as_ref()?, 0))
         } else {
-            (self.transmitted.as_ref(), self.reflected.as_ref().map_or(0, Axis::len))
+            Some((self.transmitted.as_ref()?, self.reflected.as_ref().map_or(0, Axis::len)))
         }
     }
 
-    fn polar(&self, theta: f32) -> Option<(Between, usize)> {
-        let (axis, first) = self.side(theta);
-        Some((axis?.locate(theta), first))
-    }
-
-    fn theta_cell(&self, i: usize) -> Option<[f32; 2]> {
-        let n = self.reflected.as_ref().map_or(0, Axis::len);
-        let cell =
-            if i < n { self.reflected.as_ref()?.cell(i) } else { self.transmitted.as_ref()?.cell(i - n) };
-        Some([cell.start, cell.end])
-    }
-
-    fn incident_node(&self, theta: usize, phi: usize) -> usize {
-        theta * self.incident[1].len() + phi
-    }
-
     /// The incident nodes around a direction with their weights, which sum to one.
-    fn known_nodes(&self, known: Angles) -> impl Iterator<Item = (usize, f32)> + '_ {
-        let [theta, phi] = [self.incident[0].locate(known.theta), self.incident[1].locate(known.phi)];
-        parts(theta)
+    fn incident(&self, w: Angles) -> impl Iterator<Item = (usize, f32)> + use<> {
+        let (theta, phi) = (self.theta_i.locate(w.theta), self.phi_i.locate(w.phi));
+        let count = self.phi_i.len();
+        theta
+            .parts()
             .into_iter()
-            .flat_map(move |(a, wa)| parts(phi).map(move |(b, wb)| (self.incident_node(a, b), wa * wb)))
+            .flat_map(move |(a, wa)| phi.parts().map(move |(b, wb)| (a * count + b, wa * wb)))
+            .filter(|n| n.1 > 0.0)
     }
-}
 
-fn parts(b: Between) -> [(usize, f32); 2] {
-    [(b.nodes[0], 1.0 - b.share), (b.nodes[1], b.share)]
+    /// The measurements around a scattered direction at an incident node, with their weights; none on a side that was not
+    /// measured.
+    fn rows(&self, node: usize, theta: f32, phi: f32) -> impl Iterator<Item = (usize, f32)> + use<> {
+        let nodes = [&self.reflected, &self.transmitted].into_iter().flatten().map(Axis::len);
+        let (n_theta, n_phi) = (nodes.sum::<usize>(), self.phi_o.len());
+        let phi = self.phi_o.locate(phi);
+        let theta = self.side(theta).map(|(axis, first)| (axis.locate(theta), first));
+        theta
+            .into_iter()
+            .flat_map(|(theta, first)| theta.parts().map(|(c, w)| (first + c, w)))
+            .flat_map(move |(c, wc)| {
+                phi.parts().map(move |(d, wd)| ((node * n_theta + c) * n_phi + d, wc * wd))
+            })
+            .filter(|r| r.1 > 0.0)
+    }
+
+    /// The values of one measurement.
+    fn spectrum(&self, row: usize) -> &[f32] {
+        let channels = self.wavelengths.len().max(1);
+        &self.values[row * channels..][..channels]
+    }
 }
 
 /// The distinct angles of a column, increasing [°].

@@ -121,10 +121,9 @@ impl MerlTable {
         if !wo.same_hemisphere(wi) {
             return PdfSolidAngle(0.0);
         }
-        let glossy = match LocalDir::new(*wo + *wi) {
-            Some(h) if self.lobe.share > 0.0 => self.lobe.pdf(h) / (4.0 * wo.dot(*h)),
-            _ => 0.0,
-        };
+        let sum = *wo + *wi;
+        // wo·h is half of the sum's length; the product itself may be negative by rounding where both graze.
+        let glossy = LocalDir::new(sum).map_or(0.0, |h| self.lobe.pdf(h) / (2.0 * sum.length()));
         let diffuse = warp::cosine_hemisphere_pdf(wi.abs_cos_theta());
         PdfSolidAngle(self.lobe.share * glossy + (1.0 - self.lobe.share) * diffuse)
     }

@@ -24,7 +24,7 @@ pub use tensor::TensorError;
 use super::contract::{BsdfSample, Lobes, Mode};
 use super::specimen::{Claims, Reciprocity, Specimen};
 use crate::math::{LocalDir, Vec2};
-use crate::spectrum::{LANES, Sampled};
+use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, LANES, Sampled};
 use crate::units::{PdfSolidAngle, PerSteradian};
 use warp::Knot;
 
@@ -86,6 +86,21 @@ impl MeasuredTable {
     }
 }
 
+impl MeasuredTable {
+    /// The wavelengths for which there are values [nm]: those of the file, and the film's, over which the first and the last
+    /// value are held. Red, green and blue stand for the film's; a table without colour for all.
+    pub fn range(&self) -> (f32, f32) {
+        let nodes = match self {
+            Self::Rgl(t) => t.wavelengths(),
+            Self::Merl(_) => &[],
+            Self::Goniometer(t) if t.wavelengths().is_empty() => return (0.0, f32::INFINITY),
+            Self::Goniometer(t) => t.wavelengths(),
+        };
+        let (first, last) = (nodes.first().copied(), nodes.last().copied());
+        (first.map_or(LAMBDA_MIN, |l| l.min(LAMBDA_MIN)), last.map_or(LAMBDA_MAX, |l| l.max(LAMBDA_MAX)))
+    }
+}
+
 /// A measured scattering function at a path's wavelengths, alike on both sides of the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
@@ -128,7 +143,7 @@ impl<'a> Measured<'a> {
         match self.table {
             MeasuredTable::Rgl(t) => t.sample(wo, u, &self.lambda, &self.knots),
             MeasuredTable::Merl(t) => t.sample(wo, uc, u, &self.lambda),
-            MeasuredTable::Goniometer(t) => t.sample(wo, uc, u, mode, &self.knots),
+            MeasuredTable::Goniometer(t) => t.sample(wo, u, mode, &self.knots),
         }
     }
 

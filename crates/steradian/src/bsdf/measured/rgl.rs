@@ -84,9 +84,8 @@ impl RglTable {
     /// Reads a file.
     ///
     /// # Errors
-    /// When a field is missing or of another type or shape, when a value is not finite or negative (spectra may
-    /// fall short of zero by a hundredth of the largest value: noise, read as zero), or when wavelengths cover too
-    /// little of the visible range.
+    /// When a field is missing or of another type or shape, when a value is not finite or is negative beyond noise (a
+    /// hundredth of the largest; less is read as zero), or when wavelengths cover too little of the visible range.
     pub fn parse(bytes: &[u8]) -> Result<Self, MeasuredError> {
         let file = TensorFile::parse(bytes)?;
         let theta = increasing(&file, "theta_i", [-1e-3, FRAC_PI_2 + 1e-3])?;
@@ -109,9 +108,17 @@ impl RglTable {
             (Channels::Rgb(Box::new(RgbUpsampling::new())), "rgb", 3)
         };
         let shape = [slices[0], slices[1], Some(count), on_square[0], on_square[1]];
-        let spectra = without_noise(name, file.floats(name, &shape)?.values)?;
+        let spectra = positive(&file, name, &shape)?.values;
         let symmetry = symmetry(&phi)?;
         Ok(Self { theta, phi, symmetry, ndf, sigma, vndf, luminance, grid, spectra, channels, jacobian })
+    }
+
+    /// The file's wavelengths [nm]; none where it has red, green and blue.
+    pub(super) fn wavelengths(&self) -> &[f32] {
+        match &self.channels {
+            Channels::Wavelengths(nodes) => nodes,
+            Channels::Rgb(_) => &[],
+        }
     }
 
     /// Places of `lambda` [nm] among the file's wavelengths, whose ends are held.
@@ -202,7 +209,8 @@ impl RglTable {
     /// The facet that mirrors the known direction to the upper direction `wi`.
     fn facet(&self, known: &Known, wi: Vec3) -> Option<Facet> {
         let wi = Vec3::from((wi.truncate() * known.signs, wi.z));
-        let m = LocalDir::new(known.w + wi)?;
+        let sum = known.w + wi;
+        let m = LocalDir::new(sum)?;
         let mut phi = m.y.atan2(m.x);
         if self.symmetry == Symmetry::Isotropic {
             phi -= known.phi;
@@ -211,8 +219,9 @@ impl RglTable {
         let u = Vec2::new((elevation(*m) / FRAC_PI_2).sqrt(), v - v.floor());
         let seen = self.vndf.invert(u, &known.blend);
         let bright = self.luminance.density(seen.p, &known.blend);
-        let ratio = solid_angle_ratio(u.x, m.truncate().length(), known.w.dot(*m));
-        Some(Facet { u, s: seen.p, pdf: (bright * seen.density / ratio).max(0.0) })
+        // wo·m is half of the sum's length; the product itself may be negative by rounding where both graze.
+        let ratio = solid_angle_ratio(u.x, m.truncate().length(), 0.5 * sum.length());
+        Some(Facet { u, s: seen.p, pdf: bright * seen.density / ratio })
     }
 
     /// f cosθi [sr⁻¹].
@@ -301,26 +310,20 @@ fn increasing(file: &TensorFile<'_>, name: &'static str, range: [f32; 2]) -> Res
 /// No density or spectrum comes near; products of such values stay finite.
 const LARGEST: f32 = 1e9;
 
-/// An array of values that are not negative and finite.
+/// An array of finite values that are not negative, but for noise: what falls short of zero by up to a hundredth of the
+/// largest value becomes zero.
 fn positive(
     file: &TensorFile<'_>,
     name: &'static str,
     shape: &[Option<usize>],
 ) -> Result<Floats, MeasuredError> {
-    let floats = file.floats(name, shape)?;
-    match floats.values.iter().find(|v| !(0.0..=LARGEST).contains(*v)) {
-        Some(v) => Err(MeasuredError::Field { field: name, what: format!("a value of {v}") }),
-        None => Ok(floats),
-    }
-}
-
-fn without_noise(name: &'static str, mut values: Vec<f32>) -> Result<Vec<f32>, MeasuredError> {
-    let largest = values.iter().fold(0.0_f32, |a, &b| a.max(b));
-    if let Some(v) = values.iter().find(|v| !(-0.01 * largest..=LARGEST).contains(*v)) {
+    let mut floats = file.floats(name, shape)?;
+    let largest = floats.values.iter().fold(0.0_f32, |a, &b| a.max(b));
+    if let Some(v) = floats.values.iter().find(|v| !(-0.01 * largest..=LARGEST).contains(*v)) {
         return Err(MeasuredError::Field { field: name, what: format!("a value of {v}") });
     }
-    values.iter_mut().for_each(|v| *v = v.max(0.0));
-    Ok(values)
+    floats.values.iter_mut().for_each(|v| *v = v.max(0.0));
+    Ok(floats)
 }
 
 fn grid(name: &'static str, shape: &[usize]) -> Result<Grid, MeasuredError> {

@@ -299,6 +299,20 @@ fn the_format_is_known_by_the_content() {
 }
 
 #[test]
+fn values_are_held_over_the_film_s_range_and_no_further() {
+    let table = read(small_table().as_bytes());
+    assert_eq!(table.range(), (360.0, 830.0));
+    let f = |lambda| {
+        let measured = Measured::new(&table, &[lambda; LANES]);
+        measured.eval(at(20.0, 0.0), at(30.0, 50.0), Mode::Radiance)[0]
+    };
+    assert_eq!(f(360.0), f(400.0));
+    assert_eq!(f(830.0), f(700.0));
+    let text = small_table().replace("f_400nm", "f_350nm").replace("f_700nm", "f_2500nm");
+    assert_eq!(read(text.as_bytes()).range(), (350.0, 2500.0));
+}
+
+#[test]
 fn what_is_wrong_with_a_file_is_said() {
     let file = metal_file(brushed(), &Nodes { theta: 3, directions: 5, ..nodes(Azimuths::Half(3), 6) });
     let said = |bytes: &[u8]| MeasuredTable::read(bytes, Some("bsdf")).unwrap_err().to_string();

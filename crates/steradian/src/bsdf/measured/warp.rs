@@ -53,6 +53,17 @@ impl Blend {
         blend
     }
 
+    /// Of the slices with the weights given, which sum to one.
+    pub(super) fn of(parts: impl IntoIterator<Item = (usize, f32)>) -> Self {
+        let mut blend = Self { slice: [0; 4], weight: [0.0; 4], used: 0 };
+        for (slice, weight) in parts.into_iter().filter(|p| p.1 > 0.0).take(4) {
+            blend.slice[blend.used] = slice as u32;
+            blend.weight[blend.used] = weight;
+            blend.used += 1;
+        }
+        blend
+    }
+
     /// The slices and their weights.
     pub(super) fn parts(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         self.slice[..self.used].iter().zip(&self.weight).map(|(&s, &w)| (s as usize, w))
@@ -70,7 +81,7 @@ pub(super) struct Patch {
 }
 
 /// Extents of a grid of nodes, at least 2 × 2; x is contiguous.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Grid {
     pub(super) nx: usize,
     pub(super) ny: usize,
@@ -126,8 +137,8 @@ pub(super) struct Warped {
     pub(super) density: f32,
 }
 
-/// A family of densities on the unit square.
-#[derive(Clone, Debug, PartialEq)]
+/// A family of densities on the unit square; by default, of none.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Warp {
     grid: Grid,
     /// Densities at the nodes; each slice integrates to one.
