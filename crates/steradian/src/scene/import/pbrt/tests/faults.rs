@@ -373,7 +373,6 @@ fn faults_of_lights_and_cameras() {
 
 #[test]
 fn what_would_be_rendered_wrongly_is_refused() {
-    expect("Material \"hair\" \"float beta_m\" 0.3", &["2:10: error: unsupported: material \"hair\""]);
     expect(
         "Material \"subsurface\" \"string name\" \"Skin1\"",
         &["2:10: error: unsupported: material \"subsurface\""],
