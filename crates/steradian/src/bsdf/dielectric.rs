@@ -5,7 +5,7 @@ use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side, Sides};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
 use crate::optics::fresnel::{self, Crossing};
-use crate::optics::{TrowbridgeReitz, refraction};
+use crate::optics::{Distribution, TrowbridgeReitz, refraction};
 use crate::spectrum::Sampled;
 use crate::units::{Density, PdfSolidAngle, PerSteradian};
 
@@ -13,11 +13,27 @@ use crate::units::{Density, PdfSolidAngle, PerSteradian};
 ///
 /// The index is one number: where it depends on the wavelength, the path carries its hero only.
 #[derive(Clone, Copy, Debug)]
-pub struct Dielectric {
+pub struct Dielectric<D = TrowbridgeReitz> {
     /// Index below the surface over the index above it.
     pub eta: f32,
     /// Distribution of the microfacets.
-    pub roughness: TrowbridgeReitz,
+    pub roughness: D,
+}
+
+/// A pair of directions at a rough interface, apart from how much of the light takes that way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    pub(super) side: Side,
+    /// Cosine of `wo` to the facet, negative from below.
+    pub(super) cos: f32,
+    /// Index on the side of `wi` over that on the side of `wo`.
+    pub(super) eta: f32,
+    /// f [sr⁻¹] for importance, if all light took this way.
+    pub(super) f: f32,
+    /// Density of drawing `wi` for `wo` [sr⁻¹], were the side certain.
+    pub(super) pdf: f32,
+    /// Density of drawing `wo` for `wi` [sr⁻¹], were the side certain.
+    reverse_pdf: f32,
 }
 
 /// Value and density of a pair of directions, alike at every wavelength.
@@ -45,7 +61,7 @@ pub(crate) struct Draw {
     pub(crate) eta: f32,
 }
 
-impl Dielectric {
+impl<D: Distribution> Dielectric<D> {
     /// f [sr⁻¹]; Walter et al. 2007, eq. 20 and 21, the latter over η² for radiance.
     pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
         self.evaluate(wo, wi, mode, Sides::Both).map_or(Sampled::ZERO, |e| Sampled::splat(e.f))
@@ -95,21 +111,6 @@ impl Dielectric {
         if self.is_specular() { Claims::LOSSLESS } else { Claims::CLOSED_FORM }
     }
 
-    /// Examples for the conformance suite.
-    pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
-        let of = |eta, ax, ay| Self { eta, roughness: TrowbridgeReitz::new(ax, ay) };
-        [
-            Specimen::new("dielectric smooth", Claims::LOSSLESS, of(1.5, 0.0, 0.0)),
-            Specimen::new("dielectric smooth, less dense", Claims::LOSSLESS, of(0.75, 0.0, 0.0)),
-            Specimen::new("dielectric without contrast", Claims::LOSSLESS, of(1.0, 0.3, 0.3)),
-            Specimen::new("dielectric rough 0.1", Claims::CLOSED_FORM, of(1.5, 0.1, 0.1)),
-            Specimen::new("dielectric rough 0.5", Claims::CLOSED_FORM, of(1.5, 0.5, 0.5)),
-            Specimen::new("dielectric rough, less dense", Claims::CLOSED_FORM, of(1.0 / 1.33, 0.3, 0.3)),
-            Specimen::new("dielectric brushed", Claims::CLOSED_FORM, of(1.5, 0.2, 0.6)),
-        ]
-        .into_iter()
-    }
-
     /// Whether only discrete directions are scattered into: smooth, or no contrast to refract at.
     pub(crate) fn is_specular(&self) -> bool {
         self.eta == 1.0 || self.roughness.is_smooth()
@@ -124,6 +125,19 @@ impl Dielectric {
         mode: Mode,
         sides: Sides,
     ) -> Option<Evaluation> {
+        let met = self.meet(wo, wi)?;
+        let r = fresnel::dielectric(met.cos, self.eta);
+        let reflected = sides.reflection_probability(r);
+        let (share, probability) = match met.side {
+            Side::Reflection => (r, reflected),
+            Side::Transmission => ((1.0 - r) * radiance_scale(mode, met.eta), 1.0 - reflected),
+        };
+        Some(Evaluation { f: met.f * share, pdf: met.pdf * probability, reverse_pdf: met.reverse_pdf })
+    }
+
+    /// The facet that takes `wo` to `wi`; `None` where there is none.
+    #[inline]
+    pub(super) fn meet(&self, wo: LocalDir, wi: LocalDir) -> Option<Meeting> {
         if self.is_specular() || wo.z == 0.0 || wi.z == 0.0 {
             return None;
         }
@@ -144,23 +158,26 @@ impl Dielectric {
         if im * wi.z <= 0.0 || om * wo.z <= 0.0 {
             return None;
         }
-        let r = fresnel::dielectric(om, self.eta);
-        let reflection_probability = sides.reflection_probability(r);
         let d = self.roughness.d(LocalDir::new_unchecked(wm));
         let f = d * self.roughness.g_over_cosines(wo, wi);
         let visible = |w| d * self.roughness.g1_over_cos(w);
         Some(match side {
-            Side::Reflection => Evaluation {
-                f: 0.25 * f * r,
-                pdf: 0.25 * visible(wo) * reflection_probability,
+            Side::Reflection => Meeting {
+                side,
+                cos: om,
+                eta,
+                f: 0.25 * f,
+                pdf: 0.25 * visible(wo),
                 reverse_pdf: 0.25 * visible(wi),
             },
             Side::Transmission => {
                 let jacobian = refraction_jacobian(om, im, eta) * om.abs();
-                let t = (1.0 - r) * radiance_scale(mode, eta);
-                Evaluation {
-                    f: t * f * jacobian,
-                    pdf: visible(wo) * jacobian * (1.0 - reflection_probability),
+                Meeting {
+                    side,
+                    cos: om,
+                    eta,
+                    f: f * jacobian,
+                    pdf: visible(wo) * jacobian,
                     // Seen from the other side, the index and so the Jacobian's root are inverted.
                     reverse_pdf: visible(wi) * jacobian / (eta * eta),
                 }
@@ -229,6 +246,25 @@ impl Dielectric {
     }
 }
 
+impl Dielectric {
+    /// Examples for the conformance suite.
+    pub fn specimens() -> impl Iterator<Item = Specimen<Self>> {
+        let of = |eta, ax, ay| Self { eta, roughness: TrowbridgeReitz::new(ax, ay) };
+        [
+            Specimen::new("dielectric smooth", Claims::LOSSLESS, of(1.5, 0.0, 0.0)),
+            Specimen::new("dielectric smooth, less dense", Claims::LOSSLESS, of(0.75, 0.0, 0.0)),
+            Specimen::new("dielectric without contrast", Claims::LOSSLESS, of(1.0, 0.3, 0.3)),
+            Specimen::new("dielectric rough 0.01", Claims::CLOSED_FORM, of(1.5, 0.01, 0.01)),
+            Specimen::new("dielectric rough 0.1", Claims::CLOSED_FORM, of(1.5, 0.1, 0.1)),
+            Specimen::new("dielectric rough 0.5", Claims::CLOSED_FORM, of(1.5, 0.5, 0.5)),
+            Specimen::new("dielectric rough 1", Claims::CLOSED_FORM, of(1.5, 1.0, 1.0)),
+            Specimen::new("dielectric rough, less dense", Claims::CLOSED_FORM, of(1.0 / 1.33, 0.3, 0.3)),
+            Specimen::new("dielectric brushed", Claims::CLOSED_FORM, of(1.5, 0.2, 0.6)),
+        ]
+        .into_iter()
+    }
+}
+
 /// dωm/dωi of a refraction at the facet normal, from the cosines to it; Walter et al. 2007, eq. 17.
 fn refraction_jacobian(om: f32, im: f32, eta: f32) -> f32 {
     let root = im + om / eta;
@@ -237,7 +273,7 @@ fn refraction_jacobian(om: f32, im: f32, eta: f32) -> f32 {
 
 /// (ηo/ηi)² for radiance: light that enters a denser medium is spread over a smaller solid angle there, so
 /// that radiance seen from outside is the smaller (Veach 1997, 5.2).
-fn radiance_scale(mode: Mode, eta: f32) -> f32 {
+pub(super) fn radiance_scale(mode: Mode, eta: f32) -> f32 {
     match mode {
         Mode::Radiance => 1.0 / (eta * eta),
         Mode::Importance => 1.0,

@@ -3,12 +3,15 @@
 //! The contract of every method stands in [`contract`]; each variant's file documents only what differs.
 
 pub mod albedo;
+pub mod coating;
 pub mod conductor;
 pub mod conformance;
 pub mod contract;
 mod cosine_lobe;
 pub mod dielectric;
 pub mod diffuse;
+pub mod finished_conductor;
+pub mod finished_dielectric;
 pub mod hair;
 pub mod interface;
 pub mod layered;
@@ -23,10 +26,13 @@ pub mod stack;
 pub mod varnished;
 
 pub use albedo::Albedo;
+pub use coating::Coating;
 pub use conductor::Conductor;
 pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
+pub use finished_conductor::FinishedConductor;
+pub use finished_dielectric::FinishedDielectric;
 pub use hair::{Fibre, Hair};
 pub use interface::Interface;
 pub use layered::{Coat, ExitWeights, Layered};
@@ -62,6 +68,10 @@ pub enum Bsdf<'a> {
     Conductor(Conductor),
     /// The interface between two transparent media.
     Dielectric(Dielectric),
+    /// A metal with other facets, a film, or without the loss of single scattering.
+    FinishedConductor(FinishedConductor<'a>),
+    /// An interface with other facets, a film, or without the loss of single scattering.
+    FinishedDielectric(FinishedDielectric<'a>),
     /// A pane without thickness.
     ThinDielectric(ThinDielectric),
     /// A smooth clear coat over a Lambertian base.
@@ -94,6 +104,8 @@ impl<'a> Bsdf<'a> {
             Self::LegacyPhong(b) => b.eval(wo, wi, mode),
             Self::Conductor(b) => b.eval(wo, wi),
             Self::Dielectric(b) => b.eval(wo, wi, mode),
+            Self::FinishedConductor(b) => b.eval(wo, wi),
+            Self::FinishedDielectric(b) => b.eval(wo, wi, mode),
             Self::ThinDielectric(_) => Sampled::ZERO,
             Self::VarnishedDiffuse(b) => b.eval(wo, wi),
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
@@ -115,6 +127,8 @@ impl<'a> Bsdf<'a> {
             Self::LegacyPhong(b) => b.pdf(wo, wi),
             Self::Conductor(b) => b.pdf(wo, wi),
             Self::Dielectric(b) => b.pdf(wo, wi),
+            Self::FinishedConductor(b) => b.pdf(wo, wi),
+            Self::FinishedDielectric(b) => b.pdf(wo, wi),
             Self::ThinDielectric(_) => PdfSolidAngle(0.0),
             Self::VarnishedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedDiffuse(b) => b.pdf(wo, wi),
@@ -137,6 +151,8 @@ impl<'a> Bsdf<'a> {
             Self::LegacyPhong(b) => b.sample(wo, uc, u, mode),
             Self::Conductor(b) => b.sample(wo, u),
             Self::Dielectric(b) => b.sample(wo, uc, u, mode),
+            Self::FinishedConductor(b) => b.sample(wo, uc, u),
+            Self::FinishedDielectric(b) => b.sample(wo, uc, u, mode),
             Self::ThinDielectric(b) => b.sample(wo, uc),
             Self::VarnishedDiffuse(b) => b.sample(wo, uc, u),
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
@@ -158,6 +174,8 @@ impl<'a> Bsdf<'a> {
             Self::ModifiedPhong(_) | Self::LegacyPhong(_) => None,
             Self::Conductor(b) => b.albedo(wi),
             Self::Dielectric(b) => b.albedo(wi),
+            Self::FinishedConductor(b) => b.albedo(wi),
+            Self::FinishedDielectric(b) => b.albedo(wi),
             Self::ThinDielectric(b) => Some(b.albedo(wi)),
             Self::VarnishedDiffuse(b) => Some(b.albedo(wi)),
             Self::Stack(b) => b.albedo(wi),
@@ -193,6 +211,8 @@ impl<'a> Bsdf<'a> {
             Self::LegacyPhong(b) => b.lobes(),
             Self::Conductor(b) => b.lobes(),
             Self::Dielectric(b) => b.lobes(),
+            Self::FinishedConductor(b) => b.lobes(),
+            Self::FinishedDielectric(b) => b.lobes(),
             Self::ThinDielectric(_) => Lobes::default(),
             Self::VarnishedDiffuse(b) => b.lobes(),
             Self::CoatedDiffuse(b) => b.lobes(),
@@ -218,6 +238,8 @@ impl<'a> Bsdf<'a> {
             Self::LegacyPhong(b) => b.regularize(),
             Self::Conductor(b) => b.regularize(),
             Self::Dielectric(b) => b.regularize(),
+            Self::FinishedConductor(b) => b.regularize(),
+            Self::FinishedDielectric(b) => b.regularize(),
             Self::VarnishedDiffuse(b) => {
                 // Widened, the coat is rough: the closed form ends.
                 let mut layers = *b.layers();
@@ -245,6 +267,8 @@ impl<'a> Bsdf<'a> {
             | Self::LegacyPhong(_)
             | Self::Conductor(_)
             | Self::Dielectric(_)
+            | Self::FinishedConductor(_)
+            | Self::FinishedDielectric(_)
             | Self::ThinDielectric(_)
             | Self::VarnishedDiffuse(_)
             | Self::Measured(_)
@@ -270,6 +294,8 @@ impl<'a> Bsdf<'a> {
             Self::LegacyPhong(b) => b.claims(),
             Self::Conductor(b) => b.claims(),
             Self::Dielectric(b) => b.claims(),
+            Self::FinishedConductor(b) => b.claims(),
+            Self::FinishedDielectric(b) => b.claims(),
             Self::ThinDielectric(b) => b.claims(),
             Self::VarnishedDiffuse(b) => b.claims(),
             Self::CoatedDiffuse(b) => b.claims(),
@@ -291,6 +317,10 @@ impl<'a> Bsdf<'a> {
         all.extend(LegacyPhong::specimens().map(|s| s.map(Self::LegacyPhong)));
         all.extend(Conductor::specimens().map(|s| s.map(Self::Conductor)));
         all.extend(Dielectric::specimens().map(|s| s.map(Self::Dielectric)));
+        all.extend(FinishedConductor::specimens(&cabinet.conductors).map(|s| s.map(Self::FinishedConductor)));
+        all.extend(
+            FinishedDielectric::specimens(&cabinet.dielectrics).map(|s| s.map(Self::FinishedDielectric)),
+        );
         all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));
         all.extend(VarnishedDiffuse::specimens().map(|s| s.map(Self::VarnishedDiffuse)));
         all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
@@ -309,6 +339,10 @@ pub struct Cabinet {
     pub measured: Vec<measured::Synthetic>,
     /// Layers of stacks.
     pub stacks: StackCabinet,
+    /// Losses of rough metals.
+    pub conductors: finished_conductor::ConductorTables,
+    /// Losses of rough interfaces.
+    pub dielectrics: finished_dielectric::DielectricTables,
 }
 
 impl Default for Cabinet {

@@ -4,6 +4,7 @@
 
 pub mod absorption;
 pub mod attenuation;
+pub mod compensation;
 pub mod complex;
 pub mod deviation;
 pub mod dispersion;
@@ -20,6 +21,6 @@ pub mod shares;
 pub mod slab;
 
 pub use films::Film;
-pub use microfacet::TrowbridgeReitz;
+pub use microfacet::{Distribution, FacetShape, Microfacets, TrowbridgeReitz};
 pub use phase::HenyeyGreenstein;
 pub use shares::Shares;

@@ -1,0 +1,255 @@
+//! A metal with any finish: facets of either shape, a thin film, and the light that single scattering loses.
+
+use super::albedo::Albedo;
+use super::coating::Coating;
+use super::conductor::{self, Conductor};
+use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::quadrature::GAUSS_LEGENDRE;
+use super::specimen::{Claims, Energy, Specimen};
+use crate::math::{LocalDir, Vec2, Vec3, warp};
+use crate::optics::compensation::{self, Coverage, Half, LossTable, Position};
+use crate::optics::{Distribution, FacetShape, Microfacets, refraction};
+use crate::spectrum::Sampled;
+use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
+use std::f32::consts::FRAC_1_PI;
+
+/// A metal with a finish that [`Conductor`] lacks, alike on both sides of the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct FinishedConductor<'a> {
+    metal: Conductor<Microfacets>,
+    coating: Option<Coating>,
+    compensation: Option<Compensation<'a>>,
+}
+
+/// The lobe of light that met more than one facet: m(ωo) m(ωi) / (π M) of a perfect mirror, and what the metal leaves
+/// of it.
+#[derive(Clone, Copy, Debug)]
+struct Compensation<'a> {
+    table: &'a LossTable,
+    at: Position,
+    mean_loss: f32,
+    /// What further reflections leave.
+    tint: Sampled<Unitless>,
+    /// Hemispherical reflectance, averaged over the lanes.
+    reflectance: f32,
+}
+
+/// Value and density of a pair of directions.
+struct Evaluation {
+    f: Sampled<PerSteradian>,
+    pdf: f32,
+}
+
+impl<'a> FinishedConductor<'a> {
+    /// A metal, a film on it, and a table of what a perfect mirror of its roughness loses; without the table this is lost.
+    pub fn new(
+        metal: Conductor<Microfacets>,
+        coating: Option<Coating>,
+        losses: Option<&'a LossTable>,
+    ) -> Self {
+        let mut finished = Self { metal, coating, compensation: None };
+        if let Some(table) = losses
+            && !metal.roughness.is_smooth()
+        {
+            let at = table.position(&metal.roughness, 0.0);
+            let mean_loss = table.mean_loss(&at, Half::Above);
+            let mean = finished.hemispherical_reflectance();
+            let tint = mean.map(|f| compensation::further_reflections(f, mean_loss));
+            finished.compensation =
+                Some(Compensation { table, at, mean_loss, tint, reflectance: mean.mean() });
+        }
+        finished
+    }
+
+    /// f [sr⁻¹]; zero where the metal is smooth.
+    pub fn eval(&self, wo: LocalDir, wi: LocalDir) -> Sampled<PerSteradian> {
+        self.evaluate(wo, wi).map_or(Sampled::ZERO, |e| e.f)
+    }
+
+    /// Density of [`FinishedConductor::sample`]; zero where the metal is smooth.
+    pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
+        PdfSolidAngle(self.evaluate(wo, wi).map_or(0.0, |e| e.pdf))
+    }
+
+    /// A direction mirrored at a visible microfacet, or for light that met several a cosine-distributed one; `None` when
+    /// the mirrored one falls below the horizon.
+    pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2) -> Option<BsdfSample> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let reflected = |wi, weight, density, lobe| BsdfSample {
+            wi,
+            weight,
+            density,
+            side: Side::Reflection,
+            lobe,
+            eta: 1.0,
+        };
+        if self.metal.roughness.is_smooth() {
+            let wi = LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z));
+            return Some(reflected(wi, self.reflectance(wo.z), Density::Delta, Lobe::Specular));
+        }
+        let wi = if self.compensation.is_some_and(|c| uc < c.probability(wo)) {
+            let up = warp::cosine_hemisphere(u);
+            if wo.z > 0.0 { up } else { -up }
+        } else {
+            let wm = self.metal.roughness.sample_visible(wo, u);
+            LocalDir::new_unchecked(refraction::reflect(*wo, *wm))
+        };
+        let e = self.evaluate(wo, wi)?;
+        // Value and density share the distribution of facets, which cancels to rounding.
+        let density = PdfSolidAngle(e.pdf);
+        (e.pdf > 0.0).then(|| {
+            let weight = e.f.weight(wi.abs_cos_theta(), density);
+            reflected(wi, weight, Density::SolidAngle(density), Lobe::Glossy)
+        })
+    }
+
+    /// ρ for light from `wi` where the metal is smooth.
+    pub fn albedo(&self, wi: LocalDir) -> Option<Albedo> {
+        self.metal.roughness.is_smooth().then(|| Albedo::reflecting(self.reflectance(wi.z)))
+    }
+
+    /// Which lobes are present.
+    pub fn lobes(&self) -> Lobes {
+        self.metal.lobes()
+    }
+
+    /// Widens a narrow lobe: a named bias against fireflies. What single scattering by the wider lobe loses stays lost.
+    pub fn regularize(&mut self) {
+        self.metal.regularize();
+        self.compensation = None;
+    }
+
+    /// What holds for it: a perfect mirror loses nothing if it is smooth or compensated for.
+    pub fn claims(&self) -> Claims {
+        let smooth = self.metal.roughness.is_smooth();
+        let compensated = self.compensation.is_some_and(|c| c.table.covers(&self.metal.roughness, 0.0));
+        if !(smooth || compensated)
+            || !conductor::is_lossless(self.metal.index_size(), |cos| self.reflectance(cos))
+        {
+            return Claims::CLOSED_FORM;
+        }
+        if smooth {
+            Claims::LOSSLESS
+        } else {
+            Claims::CLOSED_FORM.with_energy(Energy::Lossless { tolerance: 0.01 })
+        }
+    }
+
+    fn evaluate(&self, wo: LocalDir, wi: LocalDir) -> Option<Evaluation> {
+        let wm = self.metal.halfway(wo, wi)?;
+        let single = self.reflectance(wo.dot(*wm)) * self.metal.lossless_value(wo, wi, wm);
+        let pdf = self.metal.density(wo, wm);
+        let Some(c) = &self.compensation else {
+            return Some(Evaluation { f: single.cast(), pdf });
+        };
+        let p = c.probability(wo);
+        let f = single + c.tint * c.value(wo, wi);
+        Some(Evaluation {
+            f: f.cast(),
+            pdf: (1.0 - p) * pdf + p * warp::cosine_hemisphere_pdf(wi.abs_cos_theta()),
+        })
+    }
+
+    fn reflectance(&self, cos: f32) -> Sampled<Unitless> {
+        match &self.coating {
+            None => self.metal.fresnel(cos),
+            Some(coating) => coating.on_conductor(cos, self.metal.eta, self.metal.k),
+        }
+    }
+
+    /// ∫ 2μ F(μ) dμ.
+    fn hemispherical_reflectance(&self) -> Sampled<Unitless> {
+        GAUSS_LEGENDRE.iter().fold(Sampled::ZERO, |sum, &[mu, weight]| {
+            sum + self.reflectance(mu as f32) * (2.0 * mu * weight) as f32
+        })
+    }
+}
+
+impl Compensation<'_> {
+    /// The probability of drawing from this lobe: its share of the power.
+    fn probability(&self, wo: LocalDir) -> f32 {
+        let loss = self.table.loss(&self.at, wo);
+        let further = loss * self.tint.mean();
+        let all = further + (1.0 - loss) * self.reflectance;
+        if all > 0.0 { further / all } else { 0.0 }
+    }
+
+    /// f [sr⁻¹] of a perfect mirror.
+    fn value(&self, wo: LocalDir, wi: LocalDir) -> f32 {
+        if self.mean_loss == 0.0 {
+            return 0.0;
+        }
+        self.table.loss(&self.at, wo) * self.table.loss(&self.at, wi) * FRAC_1_PI / self.mean_loss
+    }
+}
+
+/// The tables that specimens refer to.
+#[derive(Debug)]
+pub struct ConductorTables(Vec<(Microfacets, LossTable)>);
+
+impl Default for ConductorTables {
+    fn default() -> Self {
+        let shapes = [FacetShape::TrowbridgeReitz, FacetShape::Beckmann];
+        let widths = [(0.01, 0.01), (0.1, 0.1), (0.5, 0.5), (1.0, 1.0), (0.15, 0.6)];
+        let table = |d| (d, LossTable::mirror(Coverage::One(d)));
+        let all = shapes.into_iter().flat_map(|s| widths.map(|(x, y)| Microfacets::new(s, x, y)));
+        Self(all.map(table).collect())
+    }
+}
+
+impl<'a> FinishedConductor<'a> {
+    /// Examples for the conformance suite.
+    pub fn specimens(tables: &'a ConductorTables) -> impl Iterator<Item = Specimen<Self>> + use<'a> {
+        let mirror = |roughness| Conductor { eta: Sampled::ZERO, k: Sampled::splat(1e4), roughness };
+        let gold = |roughness| Conductor {
+            eta: Sampled::from_array([1.37, 1.46, 0.35, 0.13]),
+            k: Sampled::from_array([1.77, 1.95, 2.71, 4.07]),
+            roughness,
+        };
+        let oxide = Coating {
+            eta: Sampled::from_array([2.4, 2.35, 2.3, 2.28]),
+            thickness_nm: 120.0,
+            lambda: [430.0, 500.0, 590.0, 680.0],
+        };
+        let lossless = Claims::CLOSED_FORM.with_energy(Energy::Lossless { tolerance: 0.01 });
+        let beckmann = |x, y| Microfacets::new(FacetShape::Beckmann, x, y);
+        let plain = [
+            ("conductor Beckmann 0.01", beckmann(0.01, 0.01), None),
+            ("conductor Beckmann 0.5", beckmann(0.5, 0.5), None),
+            ("conductor Beckmann 1", beckmann(1.0, 1.0), None),
+            ("conductor Beckmann brushed", beckmann(0.15, 0.6), None),
+            ("conductor with film, smooth", Microfacets::SMOOTH, Some(oxide)),
+            ("conductor with film", Microfacets::new(FacetShape::TrowbridgeReitz, 0.2, 0.2), Some(oxide)),
+        ]
+        .map(|(name, roughness, film)| {
+            Specimen::new(name, Claims::CLOSED_FORM, Self::new(gold(roughness), film, None))
+        });
+        let names = [
+            ["conductor GGX 0.01, compensated", "conductor GGX 0.01 gold, compensated"],
+            ["conductor GGX 0.1, compensated", "conductor GGX 0.1 gold, compensated"],
+            ["conductor GGX 0.5, compensated", "conductor GGX 0.5 gold, compensated"],
+            ["conductor GGX 1, compensated", "conductor GGX 1 gold, compensated"],
+            ["conductor GGX brushed, compensated", "conductor GGX brushed gold, compensated"],
+            ["conductor Beckmann 0.01, compensated", "conductor Beckmann 0.01 gold, compensated"],
+            ["conductor Beckmann 0.1, compensated", "conductor Beckmann 0.1 gold, compensated"],
+            ["conductor Beckmann 0.5, compensated", "conductor Beckmann 0.5 gold, compensated"],
+            ["conductor Beckmann 1, compensated", "conductor Beckmann 1 gold, compensated"],
+            ["conductor Beckmann brushed, compensated", "conductor Beckmann brushed gold, compensated"],
+        ];
+        let compensated =
+            tables.0.iter().zip(names).flat_map(move |((roughness, table), [white, coloured])| {
+                let film = (roughness.alpha()[0] < 1.0).then_some(oxide);
+                [
+                    Specimen::new(white, lossless, Self::new(mirror(*roughness), None, Some(table))),
+                    Specimen::new(
+                        coloured,
+                        Claims::CLOSED_FORM,
+                        Self::new(gold(*roughness), film, Some(table)),
+                    ),
+                ]
+            });
+        plain.into_iter().chain(compensated)
+    }
+}
