@@ -6,7 +6,7 @@ use super::conductor::{self, Conductor};
 use super::contract::{BsdfSample, Lobe, Lobes, Side};
 use super::quadrature::GAUSS_LEGENDRE;
 use super::specimen::{Claims, Energy, Specimen};
-use crate::math::{LocalDir, Vec2, Vec3, warp};
+use crate::math::{LocalDir, Vec2, Vec3};
 use crate::optics::compensation::{self, Coverage, Half, LossTable, Position};
 use crate::optics::{Distribution, FacetShape, Microfacets, refraction};
 use crate::spectrum::Sampled;
@@ -71,8 +71,8 @@ impl<'a> FinishedConductor<'a> {
         PdfSolidAngle(self.evaluate(wo, wi).map_or(0.0, |e| e.pdf))
     }
 
-    /// A direction mirrored at a visible microfacet, or for light that met several a cosine-distributed one; `None` when
-    /// the mirrored one falls below the horizon.
+    /// A direction mirrored at a visible microfacet, or for light that met several one of a wide lobe; `None` when the
+    /// mirrored one falls below the horizon.
     pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2) -> Option<BsdfSample> {
         if wo.z == 0.0 {
             return None;
@@ -89,12 +89,12 @@ impl<'a> FinishedConductor<'a> {
             let wi = LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z));
             return Some(reflected(wi, self.reflectance(wo.z), Density::Delta, Lobe::Specular));
         }
-        let wi = if self.compensation.is_some_and(|c| uc < c.probability(wo)) {
-            let up = warp::cosine_hemisphere(u);
-            if wo.z > 0.0 { up } else { -up }
-        } else {
-            let wm = self.metal.roughness.sample_visible(wo, u);
-            LocalDir::new_unchecked(refraction::reflect(*wo, *wm))
+        let wi = match &self.compensation {
+            Some(c) if uc < c.probability(wo) => c.table.sample_lobe(&c.at, Half::of(wo), u),
+            _ => {
+                let wm = self.metal.roughness.sample_visible(wo, u);
+                LocalDir::new_unchecked(refraction::reflect(*wo, *wm))
+            }
         };
         let e = self.evaluate(wo, wi)?;
         // Value and density share the distribution of facets, which cancels to rounding.
@@ -146,10 +146,7 @@ impl<'a> FinishedConductor<'a> {
         };
         let p = c.probability(wo);
         let f = single + c.tint * c.value(wo, wi);
-        Some(Evaluation {
-            f: f.cast(),
-            pdf: (1.0 - p) * pdf + p * warp::cosine_hemisphere_pdf(wi.abs_cos_theta()),
-        })
+        Some(Evaluation { f: f.cast(), pdf: (1.0 - p) * pdf + p * c.table.lobe_pdf(&c.at, wi) })
     }
 
     fn reflectance(&self, cos: f32) -> Sampled<Unitless> {
@@ -191,11 +188,49 @@ pub struct ConductorTables(Vec<(Microfacets, LossTable)>);
 
 impl Default for ConductorTables {
     fn default() -> Self {
-        let shapes = [FacetShape::TrowbridgeReitz, FacetShape::Beckmann];
-        let widths = [(0.01, 0.01), (0.1, 0.1), (0.5, 0.5), (1.0, 1.0), (0.15, 0.6)];
         let table = |d| (d, LossTable::mirror(Coverage::One(d)));
-        let all = shapes.into_iter().flat_map(|s| widths.map(|(x, y)| Microfacets::new(s, x, y)));
-        Self(all.map(table).collect())
+        Self(COMPENSATED.map(|(_, _, shape, x, y)| table(Microfacets::new(shape, x, y))).into())
+    }
+}
+
+/// What a compensated specimen is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Made {
+    /// A perfect mirror.
+    Mirror,
+    /// Gold.
+    Gold,
+    /// Gold under an oxide.
+    Oxidised,
+}
+
+/// A compensated specimen: its name, what it is made of, the shape of its facets and their widths.
+type Compensated = (&'static str, Made, FacetShape, f32, f32);
+
+const COMPENSATED: [Compensated; 9] = [
+    ("conductor GGX 0.01, compensated", Made::Mirror, FacetShape::TrowbridgeReitz, 0.01, 0.01),
+    ("conductor GGX 0.5, compensated", Made::Mirror, FacetShape::TrowbridgeReitz, 0.5, 0.5),
+    ("conductor GGX 1, compensated", Made::Mirror, FacetShape::TrowbridgeReitz, 1.0, 1.0),
+    ("conductor GGX brushed, compensated", Made::Mirror, FacetShape::TrowbridgeReitz, 0.15, 0.6),
+    ("conductor GGX 0.7 gold, compensated", Made::Gold, FacetShape::TrowbridgeReitz, 0.7, 0.7),
+    ("conductor Beckmann 0.1, compensated", Made::Mirror, FacetShape::Beckmann, 0.1, 0.1),
+    ("conductor Beckmann 1, compensated", Made::Mirror, FacetShape::Beckmann, 1.0, 1.0),
+    ("conductor Beckmann brushed, compensated", Made::Mirror, FacetShape::Beckmann, 0.6, 0.15),
+    ("conductor with film, compensated", Made::Oxidised, FacetShape::TrowbridgeReitz, 0.4, 0.4),
+];
+
+/// An interference colour on metal.
+const OXIDE: Coating = Coating {
+    eta: Sampled::from_array([2.4, 2.35, 2.3, 2.28]),
+    thickness_nm: 120.0,
+    lambda: [430.0, 500.0, 590.0, 680.0],
+};
+
+fn gold(roughness: Microfacets) -> Conductor<Microfacets> {
+    Conductor {
+        eta: Sampled::from_array([1.37, 1.46, 0.35, 0.13]),
+        k: Sampled::from_array([1.77, 1.95, 2.71, 4.07]),
+        roughness,
     }
 }
 
@@ -203,16 +238,6 @@ impl<'a> FinishedConductor<'a> {
     /// Examples for the conformance suite.
     pub fn specimens(tables: &'a ConductorTables) -> impl Iterator<Item = Specimen<Self>> + use<'a> {
         let mirror = |roughness| Conductor { eta: Sampled::ZERO, k: Sampled::splat(1e4), roughness };
-        let gold = |roughness| Conductor {
-            eta: Sampled::from_array([1.37, 1.46, 0.35, 0.13]),
-            k: Sampled::from_array([1.77, 1.95, 2.71, 4.07]),
-            roughness,
-        };
-        let oxide = Coating {
-            eta: Sampled::from_array([2.4, 2.35, 2.3, 2.28]),
-            thickness_nm: 120.0,
-            lambda: [430.0, 500.0, 590.0, 680.0],
-        };
         let lossless = Claims::CLOSED_FORM.with_energy(Energy::Lossless { tolerance: 0.01 });
         let beckmann = |x, y| Microfacets::new(FacetShape::Beckmann, x, y);
         let plain = [
@@ -220,35 +245,22 @@ impl<'a> FinishedConductor<'a> {
             ("conductor Beckmann 0.5", beckmann(0.5, 0.5), None),
             ("conductor Beckmann 1", beckmann(1.0, 1.0), None),
             ("conductor Beckmann brushed", beckmann(0.15, 0.6), None),
-            ("conductor with film, smooth", Microfacets::SMOOTH, Some(oxide)),
-            ("conductor with film", Microfacets::new(FacetShape::TrowbridgeReitz, 0.2, 0.2), Some(oxide)),
+            ("conductor with film, smooth", Microfacets::SMOOTH, Some(OXIDE)),
+            ("conductor with film", Microfacets::new(FacetShape::TrowbridgeReitz, 0.2, 0.2), Some(OXIDE)),
         ]
         .map(|(name, roughness, film)| {
             Specimen::new(name, Claims::CLOSED_FORM, Self::new(gold(roughness), film, None))
         });
-        let names = [
-            ["conductor GGX 0.01, compensated", "conductor GGX 0.01 gold, compensated"],
-            ["conductor GGX 0.1, compensated", "conductor GGX 0.1 gold, compensated"],
-            ["conductor GGX 0.5, compensated", "conductor GGX 0.5 gold, compensated"],
-            ["conductor GGX 1, compensated", "conductor GGX 1 gold, compensated"],
-            ["conductor GGX brushed, compensated", "conductor GGX brushed gold, compensated"],
-            ["conductor Beckmann 0.01, compensated", "conductor Beckmann 0.01 gold, compensated"],
-            ["conductor Beckmann 0.1, compensated", "conductor Beckmann 0.1 gold, compensated"],
-            ["conductor Beckmann 0.5, compensated", "conductor Beckmann 0.5 gold, compensated"],
-            ["conductor Beckmann 1, compensated", "conductor Beckmann 1 gold, compensated"],
-            ["conductor Beckmann brushed, compensated", "conductor Beckmann brushed gold, compensated"],
-        ];
         let compensated =
-            tables.0.iter().zip(names).flat_map(move |((roughness, table), [white, coloured])| {
-                let film = (roughness.alpha()[0] < 1.0).then_some(oxide);
-                [
-                    Specimen::new(white, lossless, Self::new(mirror(*roughness), None, Some(table))),
-                    Specimen::new(
-                        coloured,
-                        Claims::CLOSED_FORM,
-                        Self::new(gold(*roughness), film, Some(table)),
-                    ),
-                ]
+            COMPENSATED.iter().zip(&tables.0).map(move |((name, made, ..), (roughness, table))| {
+                let of = |metal, film| Self::new(metal, film, Some(table));
+                match made {
+                    Made::Mirror => Specimen::new(name, lossless, of(mirror(*roughness), None)),
+                    Made::Gold => Specimen::new(name, Claims::CLOSED_FORM, of(gold(*roughness), None)),
+                    Made::Oxidised => {
+                        Specimen::new(name, Claims::CLOSED_FORM, of(gold(*roughness), Some(OXIDE)))
+                    }
+                }
             });
         plain.into_iter().chain(compensated)
     }

@@ -58,13 +58,18 @@ impl<'a> Lookup<'a> {
 
     /// The index at the hero wavelength. Where it disperses, directions belong to the hero alone from here on.
     pub fn index(&mut self, eta: &Spectrum) -> f32 {
-        let value = eta.constant_value().unwrap_or_else(|| {
+        if eta.constant_value().is_none() {
             self.wavelengths.terminate_companions();
-            eta.at(self.wavelengths.lambda()[0])
-        });
-        // Zero stands for "no value" in scene files: a medium without contrast.
-        if value > 0.0 { value.clamp(MIN_INDEX, MAX_INDEX) } else { 1.0 }
+        }
+        index_at(eta, self.wavelengths.lambda()[0])
     }
+}
+
+/// The index at a wavelength [nm], positive.
+pub(super) fn index_at(eta: &Spectrum, lambda: f32) -> f32 {
+    let value = eta.at(lambda);
+    // Zero stands for "no value" in scene files: a medium without contrast.
+    if value > 0.0 { value.clamp(MIN_INDEX, MAX_INDEX) } else { 1.0 }
 }
 
 /// Indices of refraction that no substance reaches, in whichever direction the interface is crossed; beyond them Snell's law
@@ -122,14 +127,16 @@ impl Roughness {
 
     /// Its value at a point.
     pub fn at(&self, lookup: &Lookup) -> TrowbridgeReitz {
-        let alpha = |input| {
-            let value = lookup.float(input);
-            match self.scale {
-                RoughnessScale::Perceptual => TrowbridgeReitz::alpha_from_roughness(value),
-                RoughnessScale::Alpha => value.max(0.0),
-            }
-        };
+        let alpha = |input| self.alpha(lookup.float(input));
         TrowbridgeReitz::new(alpha(&self.u), alpha(&self.v))
+    }
+
+    /// The width that a number means.
+    pub(super) fn alpha(&self, value: f32) -> f32 {
+        match self.scale {
+            RoughnessScale::Perceptual => TrowbridgeReitz::alpha_from_roughness(value),
+            RoughnessScale::Alpha => value.max(0.0),
+        }
     }
 }
 

@@ -8,6 +8,7 @@ pub mod declared;
 mod detail;
 pub mod dielectric;
 pub mod diffuse;
+pub mod finish;
 pub mod hair;
 pub mod inputs;
 pub mod legacy_phong;

@@ -1,3 +1,4 @@
+use super::finish::Finish;
 use super::*;
 use crate::bsdf::{PhongLobe, PhongNormalization, PhongSampling};
 use crate::math::{BoundedPoint, Normal, Point, Vec2, Vec3};
@@ -72,7 +73,7 @@ fn mix_may_refer_to_earlier_materials_only() {
 fn only_dispersive_glass_drops_the_companions() {
     let mut materials = Materials::new();
     let mut glass = |eta| {
-        let glass = DielectricMaterial { eta, roughness: Roughness::SMOOTH };
+        let glass = DielectricMaterial { eta, roughness: Roughness::SMOOTH, finish: Finish::default() };
         materials.push(Material::Dielectric(glass), Detail::Flat).unwrap()
     };
     let (plain, flint) = (glass(Spectrum::Constant(1.5)), glass(named("glass-F11").unwrap()));
@@ -90,7 +91,11 @@ fn only_dispersive_glass_drops_the_companions() {
 fn reflectance_of_a_metal_is_met_at_normal_incidence() {
     let mut materials = Materials::new();
     let metal = Metal::Reflectance(constant(0.7));
-    let material = Material::Conductor(ConductorMaterial { metal, roughness: Roughness::SMOOTH });
+    let material = Material::Conductor(ConductorMaterial {
+        metal,
+        roughness: Roughness::SMOOTH,
+        finish: Finish::default(),
+    });
     let id = materials.push(material, Detail::Flat).unwrap();
     let surface = shade(&materials, id, 0.0, &mut Wavelengths::sample_visible(0.3)).unwrap();
     let s = surface.sample(Dir::Z, 0.5, Vec2::splat(0.5), crate::bsdf::Mode::Radiance).unwrap();

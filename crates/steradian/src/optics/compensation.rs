@@ -5,10 +5,12 @@
 //! mean of m over the hemisphere; for an interface see [`Split`]. All tables are piecewise linear, and M is the mean
 //! of the interpolated m: energy is lost or gained only as far as m is wrong.
 
+use super::films::{self, Film};
 use super::fresnel::{self, Crossing};
 use super::microfacet::{Distribution, FacetShape, Microfacets};
 use super::refraction;
 use crate::math::{LocalDir, Vec2, Vec3};
+use std::f32::consts::PI;
 use std::f64::consts::FRAC_PI_2;
 
 /// The side of an interface that light comes from.
@@ -160,24 +162,29 @@ struct Curve {
 }
 
 impl Curve {
-    const LAST: usize = 512;
+    /// Pieces that suffice without interference.
+    const PIECES: usize = 512;
 
     fn new(reflectance: impl Fn(f32) -> f32) -> Self {
-        let cosine = |i: usize| (i as f32 / Self::LAST as f32).max(1e-6);
+        Self::with_pieces(Self::PIECES, reflectance)
+    }
+
+    fn with_pieces(n: usize, reflectance: impl Fn(f32) -> f32) -> Self {
+        let cosine = |i: usize| (i as f32 / n as f32).max(1e-6);
         Self {
-            above: (0..=Self::LAST).map(|i| reflectance(cosine(i))).collect(),
-            below: (0..=Self::LAST).map(|i| reflectance(-cosine(i))).collect(),
+            above: (0..=n).map(|i| reflectance(cosine(i))).collect(),
+            below: (0..=n).map(|i| reflectance(-cosine(i))).collect(),
         }
     }
 
     fn at(&self, cos: f32) -> f32 {
-        let cell = Cell::new(cos.abs().min(1.0) * Self::LAST as f32);
+        let cell = Cell::new(cos.abs().min(1.0) * (self.above.len() - 1) as f32);
         cell.lerp(if cos < 0.0 { &self.below } else { &self.above })
     }
 
     /// 1 − ∫ 2μ R(μ) dμ from above.
     fn hemispherical_transmittance(&self) -> f32 {
-        let n = 4 * Self::LAST;
+        let n = 4 * self.above.len();
         let transmitted = |i| {
             let mu = (i as f32 + 0.5) / n as f32;
             f64::from(2.0 * mu * (1.0 - self.at(mu)))
@@ -225,6 +232,70 @@ struct Sheet {
     m: Vec<f32>,
     /// (1/π) ∫ m cosθ dω.
     mean: f32,
+    lobe: Lobe,
+}
+
+/// A density of directions nearly in proportion to m cosθ, alike for every azimuth: piecewise constant over cos²θ.
+#[derive(Clone, Debug, PartialEq)]
+struct Lobe {
+    /// The width whose coordinate delimits the pieces.
+    alpha: f32,
+    /// cos²θ between the pieces.
+    edges: Vec<f32>,
+    /// The probability below each edge.
+    cumulative: Vec<f32>,
+    /// Density over cos²θ within each piece.
+    density: Vec<f32>,
+}
+
+impl Lobe {
+    /// The share of directions that are cosine-distributed, whatever m is.
+    const COSINE: f64 = 0.1;
+
+    fn new(alpha: f32, n_cosines: usize, m: impl Fn(f32) -> f32) -> Self {
+        let last = (n_cosines - 1) as f64;
+        let edge = |i: usize| Sheet::cosine(i as f64 / last, f64::from(alpha)).clamp(0.0, 1.0).powi(2);
+        let edges: Vec<f64> = (0..n_cosines).map(edge).collect();
+        // m varies little within a piece.
+        let middle = |a: f64, b: f64| f64::from(m((0.5 * (a + b)).sqrt() as f32));
+        let masses: Vec<f64> = edges.windows(2).map(|e| (e[1] - e[0]) * middle(e[0], e[1])).collect();
+        let total: f64 = masses.iter().sum();
+        let mut lobe = Self {
+            alpha,
+            edges: Vec::new(),
+            cumulative: vec![0.0],
+            density: Vec::with_capacity(masses.len()),
+        };
+        let mut below = 0.0;
+        for (e, mass) in edges.windows(2).zip(masses) {
+            let size = e[1] - e[0];
+            let share = if total > 0.0 { mass / total } else { size };
+            let p = Self::COSINE * size + (1.0 - Self::COSINE) * share;
+            below += p;
+            lobe.cumulative.push(below as f32);
+            lobe.density.push((p / size) as f32);
+        }
+        lobe.edges = edges.into_iter().map(|e| e as f32).collect();
+        lobe
+    }
+
+    /// A direction in the upper half.
+    fn sample(&self, u: Vec2) -> LocalDir {
+        let last = self.density.len() - 1;
+        let i = self.cumulative.partition_point(|&c| c <= u.x).saturating_sub(1).min(last);
+        let t = ((u.x - self.cumulative[i]) / (self.cumulative[i + 1] - self.cumulative[i])).clamp(0.0, 1.0);
+        let cos2 = self.edges[i] + t * (self.edges[i + 1] - self.edges[i]);
+        let (sin_phi, cos_phi) = (2.0 * PI * u.y).sin_cos();
+        let r = (1.0 - cos2).sqrt();
+        LocalDir::new_unchecked(Vec3::new(r * cos_phi, r * sin_phi, cos2.sqrt()))
+    }
+
+    /// [sr⁻¹], from the cosine.
+    fn pdf(&self, mu: f32) -> f32 {
+        let last = self.density.len() - 1;
+        let i = (Sheet::coordinate(mu, self.alpha) * self.density.len() as f32) as usize;
+        self.density[i.min(last)] * mu * (1.0 / PI)
+    }
 }
 
 impl Sheet {
@@ -254,8 +325,12 @@ impl Sheet {
     fn new(d: &Microfacets, resolution: Resolution, m: Vec<f32>) -> Self {
         let [x, y] = d.alpha();
         let Resolution { n_cosines, n_azimuths, .. } = resolution;
-        let mut sheet = Self { low: x.min(y), high: x.max(y), n_cosines, n_azimuths, m, mean: 0.0 };
+        let (low, high) = (x.min(y), x.max(y));
+        let alpha = (low * high).sqrt();
+        let lobe = Lobe { alpha, edges: Vec::new(), cumulative: Vec::new(), density: Vec::new() };
+        let mut sheet = Self { low, high, n_cosines, n_azimuths, m, mean: 0.0, lobe };
         sheet.mean = sheet.integral();
+        sheet.lobe = Lobe::new(alpha, n_cosines, |mu| sheet.at(mu, alpha));
         sheet
     }
 
@@ -354,24 +429,33 @@ impl LossTable {
         table
     }
 
-    /// That of interfaces over a further coordinate in [`first`, `last`] with `n` nodes, which decides about the index below
-    /// over above and, with the cosine, about the reflectance.
-    pub fn coated(
+    /// That of an interface under a film of constant thickness, over the wavenumbers [nm⁻¹] from `first` to `last`, the further
+    /// coordinate. `eta` is the index below over above and `film` that of the film over above, by the wavelength [nm].
+    pub fn filmed(
         coverage: Coverage,
         [first, last]: [f32; 2],
-        n: usize,
+        thickness_nm: f32,
         eta: impl Fn(f32) -> f32,
-        reflectance: impl Fn(f32, f32) -> f32,
+        film: impl Fn(f32) -> f32,
     ) -> Self {
-        let axis = Axis::new(first, last, n);
+        // Half a radian of the phase between the film's two faces a node, over wavenumbers and over cosines.
+        let films = |x: f32| Film { eta: film(1.0 / x), thickness_nm };
+        let phase = |x: f32| 4.0 * PI * films(x).eta * thickness_nm * x;
+        let pieces = |radians: f32, least: usize| least.max((2.0 * radians) as usize);
+        let axis = Axis::new(first, last, 1 + pieces(phase(last) - phase(first), 24));
         let mut table = Self { coverage, axis, sheets: Vec::new(), transmittance: Vec::new() };
-        let curve = |x| Curve::new(|cos| reflectance(cos, x).clamp(0.0, 1.0));
-        if axis.nodes().all(|x| eta(x) == eta(first)) {
+        let curve = |x: f32| {
+            Curve::with_pieces(pieces(phase(x), Curve::PIECES), |cos| {
+                films::reflectance_dielectric(cos, films(x), eta(1.0 / x), 1.0 / x).clamp(0.0, 1.0)
+            })
+        };
+        let index = eta(1.0 / first);
+        if axis.nodes().all(|x| eta(1.0 / x) == index) {
             let curves: Vec<Curve> = axis.nodes().map(curve).collect();
-            table.extend(Some(eta(first)), &curves);
+            table.extend(Some(index), &curves);
         } else {
             for x in axis.nodes() {
-                table.extend(Some(eta(x)), &[curve(x)]);
+                table.extend(Some(eta(1.0 / x)), &[curve(x)]);
             }
         }
         table
@@ -438,21 +522,54 @@ impl LossTable {
         self.mean_over_nodes(at, half, |sheet, _| sheet.mean)
     }
 
+    /// A direction in `half`, by and large in proportion to m cosθ, with density [`LossTable::lobe_pdf`] in u ∈ [0, 1)².
+    pub fn sample_lobe(&self, at: &Position, half: Half, u: Vec2) -> LocalDir {
+        let up = self.nearest(at, half).lobe.sample(u);
+        if half == Half::Below { -up } else { up }
+    }
+
+    /// Density [sr⁻¹] of `w` among the directions that are drawn in its half.
+    pub fn lobe_pdf(&self, at: &Position, w: LocalDir) -> f32 {
+        self.nearest(at, Half::of(w)).lobe.pdf(w.abs_cos_theta())
+    }
+
     /// What a smooth interface transmits of light from all of the upper half, equally bright in every direction; zero
     /// for a mirror.
     pub fn transmittance(&self, at: &Position) -> f32 {
         if self.transmittance.is_empty() { 0.0 } else { Cell::new(at.other).lerp(&self.transmittance) }
     }
 
-    /// The interpolation of a quantity of the sheets, given with their widths along x and y.
-    fn mean_over_nodes(&self, at: &Position, half: Half, f: impl Fn(&Sheet, [f32; 2]) -> f32) -> f32 {
+    /// The sheets over the widths, at a node of the axis.
+    fn sheets(&self, k: usize, half: Half) -> &[Sheet] {
         let n_halves = if self.transmittance.is_empty() { 1 } else { 2 };
         let half = if n_halves == 2 && half == Half::Below { 1 } else { 0 };
         let n_nodes = self.sheets.len() / (self.axis.n * n_halves);
+        &self.sheets[(k * n_halves + half) * n_nodes..][..n_nodes]
+    }
+
+    /// The sheet whose node is nearest.
+    fn nearest(&self, at: &Position, half: Half) -> &Sheet {
+        let sheets = self.sheets(at.other.round() as usize, half);
+        let [i, j] = at.widths.map(|x| x.round() as usize);
+        match self.coverage {
+            Coverage::One(_) => &sheets[0],
+            Coverage::Isotropic(_) => &sheets[i],
+            Coverage::Anisotropic(_) => &sheets[Self::pair(i, j)],
+        }
+    }
+
+    /// The index of the sheet for two nodes of widths, in either order.
+    fn pair(i: usize, j: usize) -> usize {
+        let (low, high) = (i.min(j), i.max(j));
+        high * (high + 1) / 2 + low
+    }
+
+    /// The interpolation of a quantity of the sheets, given with their widths along x and y.
+    fn mean_over_nodes(&self, at: &Position, half: Half, f: impl Fn(&Sheet, [f32; 2]) -> f32) -> f32 {
         let [x, y] = at.widths;
         let mut sum = 0.0;
         for (k, share) in Cell::new(at.other).shares() {
-            let sheets = &self.sheets[(k * n_halves + half) * n_nodes..][..n_nodes];
+            let sheets = self.sheets(k, half);
             match self.coverage {
                 Coverage::One(d) => sum += share * f(&sheets[0], d.alpha()),
                 Coverage::Isotropic(_) => {
@@ -463,8 +580,7 @@ impl LossTable {
                 Coverage::Anisotropic(_) => {
                     for (i, share_i) in Cell::new(x).shares() {
                         for (j, share_j) in Cell::new(y).shares() {
-                            let (low, high) = (i.min(j), i.max(j));
-                            let sheet = &sheets[high * (high + 1) / 2 + low];
+                            let sheet = &sheets[Self::pair(i, j)];
                             let widths =
                                 if i <= j { [sheet.low, sheet.high] } else { [sheet.high, sheet.low] };
                             sum += share * share_i * share_j * f(sheet, widths);
