@@ -25,7 +25,10 @@ pub struct Dielectric<D = TrowbridgeReitz> {
 pub(super) struct Meeting {
     pub(super) side: Side,
     /// Cosine of `wo` to the facet, negative from below.
-    pub(super) cos: f32,
+    cos: f32,
+    /// Cosine to the facet, negative from below, of that of both directions which lies in the less dense medium; on either
+    /// side of the facet it decides about Fresnel's reflectance, and there it does so without amplifying its rounding.
+    pub(super) thin_cos: f32,
     /// Index on the side of `wi` over that on the side of `wo`.
     pub(super) eta: f32,
     /// f [sr⁻¹] for importance, if all light took this way.
@@ -165,6 +168,7 @@ impl<D: Distribution> Dielectric<D> {
             Side::Reflection => Meeting {
                 side,
                 cos: om,
+                thin_cos: om,
                 eta,
                 f: 0.25 * f,
                 pdf: 0.25 * visible(wo),
@@ -175,6 +179,7 @@ impl<D: Distribution> Dielectric<D> {
                 Meeting {
                     side,
                     cos: om,
+                    thin_cos: if eta > 1.0 { om } else { im },
                     eta,
                     f: f * jacobian,
                     pdf: visible(wo) * jacobian,

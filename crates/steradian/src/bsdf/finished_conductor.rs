@@ -4,6 +4,7 @@ use super::albedo::Albedo;
 use super::coating::Coating;
 use super::conductor::{self, Conductor};
 use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::interface::Interface;
 use super::quadrature::GAUSS_LEGENDRE;
 use super::specimen::{Claims, Energy, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
@@ -108,6 +109,11 @@ impl<'a> FinishedConductor<'a> {
     /// ρ for light from `wi` where the metal is smooth.
     pub fn albedo(&self, wi: LocalDir) -> Option<Albedo> {
         self.metal.roughness.is_smooth().then(|| Albedo::reflecting(self.reflectance(wi.z)))
+    }
+
+    /// The bare interface that light meets first; `None` under a film.
+    pub fn interface(&self) -> Option<Interface> {
+        self.coating.is_none().then(|| Interface { eta: self.metal.eta, k: self.metal.k })
     }
 
     /// Which lobes are present.
@@ -263,5 +269,138 @@ impl<'a> FinishedConductor<'a> {
                 }
             });
         plain.into_iter().chain(compensated)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bsdf::{Bsdf, conformance};
+    use crate::math::warp;
+    use crate::optics::{TrowbridgeReitz, films};
+
+    const MIRROR: Sampled<Unitless> = Sampled::splat(1e4);
+
+    fn at(degrees: f32) -> LocalDir {
+        LocalDir::new_unchecked(warp::spherical_direction(degrees.to_radians(), 0.7))
+    }
+
+    fn mirror(shape: FacetShape, x: f32, y: f32) -> Conductor<Microfacets> {
+        Conductor { eta: Sampled::ZERO, k: MIRROR, roughness: Microfacets::new(shape, x, y) }
+    }
+
+    #[test]
+    fn compensated_mirrors_of_any_roughness_reflect_everything() {
+        use FacetShape::{Beckmann, TrowbridgeReitz};
+        for (shape, x, y) in [
+            (TrowbridgeReitz, 1.0, 1.0),
+            (TrowbridgeReitz, 0.2, 0.2),
+            (TrowbridgeReitz, 0.02, 0.7),
+            (Beckmann, 1.0, 1.0),
+            (Beckmann, 0.3, 0.1),
+        ] {
+            let metal = mirror(shape, x, y);
+            let table = LossTable::mirror(Coverage::One(metal.roughness));
+            let bsdf = Bsdf::FinishedConductor(FinishedConductor::new(metal, None, Some(&table)));
+            assert_eq!(bsdf.claims().energy, Energy::Lossless { tolerance: 0.01 });
+            for degrees in [0.0, 30.0, 60.0, 80.0, 110.0] {
+                let rho = conformance::albedo(&bsdf, at(degrees), 60_000, 5);
+                // Equivalence at 95 %.
+                let off = (rho.value - 1.0).abs() + 1.96 * rho.error;
+                assert!(off < 0.01, "{shape:?} {x} {y} {degrees}: {rho:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn uncompensated_mirror_loses_what_its_table_says() {
+        // GGX at α = 1, masking correlated with height; 0.307 at 0° were it not.
+        let metal = mirror(FacetShape::TrowbridgeReitz, 1.0, 1.0);
+        let table = LossTable::mirror(Coverage::One(metal.roughness));
+        let position = table.position(&metal.roughness, 0.0);
+        let bsdf = Bsdf::FinishedConductor(FinishedConductor::new(metal, None, None));
+        for degrees in [0.0, 30.0, 60.0, 80.0] {
+            let rho = conformance::albedo(&bsdf, at(degrees), 60_000, 5);
+            let expected = 1.0 - f64::from(table.loss(&position, at(degrees)));
+            assert!((rho.value - expected).abs() < 1e-3 + 4.0 * rho.error, "{degrees}: {rho:?} {expected}");
+            assert!(rho.value < 0.75, "{rho:?}");
+        }
+    }
+
+    #[test]
+    fn compensated_metal_absorbs_more_than_a_single_reflection_does() {
+        let roughness = Microfacets::new(FacetShape::TrowbridgeReitz, 0.8, 0.8);
+        let table = LossTable::mirror(Coverage::One(roughness));
+        let with = Bsdf::FinishedConductor(FinishedConductor::new(gold(roughness), None, Some(&table)));
+        let without = Bsdf::FinishedConductor(FinishedConductor::new(gold(roughness), None, None));
+        for degrees in [0.0, 60.0] {
+            let [with, without] = [&with, &without].map(|b| b.albedo(at(degrees)).reflectance);
+            for lane in 0..4 {
+                let once = fresnel_at(&gold(roughness), lane);
+                assert!(with[lane] > without[lane] + 0.01, "{with:?} {without:?}");
+                assert!(with[lane] < once, "{with:?} {once}");
+            }
+        }
+        fn fresnel_at(metal: &Conductor<Microfacets>, lane: usize) -> f32 {
+            // The largest reflectance of a facet up to 85°.
+            (0..=85).map(|d| metal.fresnel((d as f32).to_radians().cos())[lane]).fold(0.0, f32::max)
+        }
+    }
+
+    #[test]
+    fn a_film_of_no_thickness_changes_nothing() {
+        let roughness = Microfacets::new(FacetShape::TrowbridgeReitz, 0.3, 0.3);
+        let none = Coating { thickness_nm: 0.0, ..OXIDE };
+        let bare = Conductor {
+            roughness: TrowbridgeReitz::new(0.3, 0.3),
+            eta: gold(roughness).eta,
+            k: gold(roughness).k,
+        };
+        let filmed = FinishedConductor::new(gold(roughness), Some(none), None);
+        for (wo, wi) in [(at(10.0), at(60.0)), (at(40.0), -at(130.0)), (at(80.0), at(20.0))] {
+            let (a, b) = (filmed.eval(wo, wi), bare.eval(wo, wi));
+            for lane in 0..4 {
+                assert!((a[lane] - b[lane]).abs() <= 1e-4 * b[lane], "{a:?} {b:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_smooth_film_colours_the_mirror_direction() {
+        let metal = gold(Microfacets::SMOOTH);
+        let bsdf = FinishedConductor::new(metal, Some(OXIDE), None);
+        let s = bsdf.sample(at(35.0), 0.5, Vec2::splat(0.5)).unwrap();
+        for lane in 0..4 {
+            let film = films::Film { eta: OXIDE.eta[lane], thickness_nm: OXIDE.thickness_nm };
+            let cos = at(35.0).z;
+            let r =
+                films::reflectance_conductor(cos, film, metal.eta[lane], metal.k[lane], OXIDE.lambda[lane]);
+            assert_eq!(s.weight[lane], r);
+        }
+    }
+
+    #[test]
+    fn a_table_for_other_facets_is_no_ground_for_a_claim() {
+        let table = LossTable::mirror(Coverage::One(Microfacets::new(FacetShape::Beckmann, 0.3, 0.3)));
+        let metal = mirror(FacetShape::Beckmann, 0.5, 0.5);
+        assert_eq!(FinishedConductor::new(metal, None, Some(&table)).claims(), Claims::CLOSED_FORM);
+        // Nor is one for a metal that absorbs.
+        let gold = gold(Microfacets::new(FacetShape::Beckmann, 0.3, 0.3));
+        assert_eq!(FinishedConductor::new(gold, None, Some(&table)).claims(), Claims::CLOSED_FORM);
+    }
+
+    #[test]
+    fn textured_widths_keep_the_claim_and_the_density() {
+        let table = LossTable::mirror(Coverage::Isotropic(FacetShape::TrowbridgeReitz));
+        for alpha in [0.05, 0.4, 0.93] {
+            let metal = mirror(FacetShape::TrowbridgeReitz, alpha, alpha);
+            let bsdf = FinishedConductor::new(metal, None, Some(&table));
+            assert_eq!(bsdf.claims().energy, Energy::Lossless { tolerance: 0.01 });
+            let effort = conformance::Effort::QUICK;
+            let specimen = Specimen::new("textured", bsdf.claims(), Bsdf::FinishedConductor(bsdf));
+            let examination = conformance::examine(&specimen, &effort);
+            let wrong: Vec<String> = examination.contradictions().map(|f| f.to_string()).collect();
+            assert!(wrong.is_empty(), "{alpha}: {wrong:?}");
+        }
     }
 }

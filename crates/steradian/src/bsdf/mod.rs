@@ -192,6 +192,8 @@ impl<'a> Bsdf<'a> {
         match self {
             Self::Conductor(b) => Some(Interface { eta: b.eta, k: b.k }),
             Self::Dielectric(b) => Some(Interface::clear(b.eta)),
+            Self::FinishedConductor(b) => b.interface(),
+            Self::FinishedDielectric(b) => b.interface(),
             Self::ThinDielectric(b) => Some(Interface::clear(b.eta)),
             Self::VarnishedDiffuse(b) => Some(Interface::clear(b.layers().coat.interface.eta)),
             Self::CoatedDiffuse(b) => Some(Interface::clear(b.coat.interface.eta)),

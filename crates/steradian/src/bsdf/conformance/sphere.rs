@@ -269,7 +269,8 @@ impl Builder {
                 // Stragglers do not keep a margin alive where there are many points.
                 let tail = if points.len() >= 64 { points.len() / 20 } else { 0 };
                 let (first, last) = (points[tail].0[axis], points[points.len() - 1 - tail].0[axis]);
-                let pad = 0.25 * (last - first) + 1e-6;
+                // Of a Gaussian lobe, less than 10⁻⁴ lie beyond: quadrature over a wide margin would not see them.
+                let pad = 0.75 * (last - first) + 1e-6;
                 let (low, high) = (first - pad - cell.lo[axis], cell.hi[axis] - last - pad);
                 if low.max(high) > 0.5 * cell.extent(axis) {
                     return Some((axis, if low > high { first - pad } else { last + pad }));
