@@ -113,7 +113,7 @@ impl<'a> FinishedConductor<'a> {
 
     /// The bare interface that light meets first; `None` under a film.
     pub fn interface(&self) -> Option<Interface> {
-        self.coating.is_none().then(|| Interface { eta: self.metal.eta, k: self.metal.k })
+        self.coating.is_none().then_some(Interface { eta: self.metal.eta, k: self.metal.k })
     }
 
     /// Which lobes are present.
