@@ -349,6 +349,11 @@ pub struct Cabinet {
 
 impl Default for Cabinet {
     fn default() -> Self {
-        Self { measured: measured::synthetic_tables(), stacks: StackCabinet::default() }
+        Self {
+            measured: measured::synthetic_tables(),
+            conductors: finished_conductor::ConductorTables::default(),
+            dielectrics: finished_dielectric::DielectricTables::default(),
+            stacks: StackCabinet::default(),
+        }
     }
 }
