@@ -198,6 +198,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => Some(Interface::clear(b.layers().coat.interface.eta)),
             Self::CoatedDiffuse(b) => Some(Interface::clear(b.coat.interface.eta)),
             Self::CoatedConductor(b) => Some(Interface::clear(b.coat.interface.eta)),
+            Self::Stack(b) => Some(Interface { eta: b.top_eta(), k: Sampled::ZERO }),
             _ => None,
         }
     }

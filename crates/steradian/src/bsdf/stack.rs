@@ -165,6 +165,11 @@ impl<'a> Stack<'a> {
         Some(Albedo { reflectance: reflected, transmittance: transmitted })
     }
 
+    /// Index of the uppermost layer.
+    pub(super) fn top_eta(&self) -> Sampled<Unitless> {
+        self.pile(Purpose::Value, false).eta_of(1)
+    }
+
     /// What holds for it: only layers, metals, bases and second facets absorb.
     pub fn claims(&self) -> Claims {
         let clear =

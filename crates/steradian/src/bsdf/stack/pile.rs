@@ -302,6 +302,11 @@ impl Pile {
         self.media[self.n_media - 1].eta
     }
 
+    /// Index of a medium, counted from the outside.
+    pub(super) fn eta_of(&self, medium: usize) -> Sampled<Unitless> {
+        self.media[medium].eta
+    }
+
     /// ∫ 2μ R(μ) e^(−2τ/μ) dμ: the share of a Lambertian emission at the base that returns to it, from all reflections in the
     /// smooth stack above and twice through the last layer, τ thick.
     pub(super) fn returned_to_base(&self) -> Sampled<Unitless> {
