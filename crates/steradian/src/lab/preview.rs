@@ -6,7 +6,7 @@ use crate::scene::{Diagnostics, MemoryFiles};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Sphere, lamp, sky and camera, as pbrt-v4 text.
+/// Lamp, sky, wall and camera, as pbrt-v4 text.
 const STAGE: &str = include_str!("../../data/preview.pbrt");
 
 /// Half the number of floor tiles along each side.
@@ -114,9 +114,9 @@ mod tests {
         let scene = import(&[input], &MemoryFiles::default()).scene.unwrap();
         for label in ["paint", "dielectric#2", "diffuse#0"] {
             let desc = preview(scene.clone(), label).unwrap();
-            // The lamp, two colours of tiles, and the sphere.
-            assert_eq!(desc.shapes.len(), 4, "{label}");
-            let of_sphere = desc.material(desc.shapes[3].material).unwrap();
+            // The lamp, the wall, two colours of tiles, and the sphere.
+            assert_eq!(desc.shapes.len(), 5, "{label}");
+            let of_sphere = desc.material(desc.shapes[4].material).unwrap();
             assert_eq!(of_sphere.name.as_deref(), (label == "paint").then_some("paint"));
             let mut diagnostics = Diagnostics::default();
             assert!(compile(desc, &MemoryFiles::default(), &mut diagnostics).is_some(), "{diagnostics:?}");
