@@ -269,7 +269,7 @@ impl HalfwayLobe {
         let glossy = 4.0 * f64::from(TAU) * area(&density);
         let diffuse = floor * f64::from(PI);
         if !(glossy + diffuse > 0.0) {
-            return mean.iter().any(|&m| m > 0.0).then(|| Self::diffuse());
+            return mean.iter().any(|&m| m > 0.0).then(Self::diffuse);
         }
         if !(glossy > 0.0) {
             return Some(Self::diffuse());

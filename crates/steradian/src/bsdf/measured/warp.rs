@@ -23,8 +23,7 @@ impl Knot {
         let Some(last) = nodes.len().checked_sub(2) else { return Self::default() };
         let index = nodes.partition_point(|&n| n < x).saturating_sub(1).min(last);
         let share = (x - nodes[index]) / (nodes[index + 1] - nodes[index]);
-        // `clamp` would keep a NaN.
-        Self { index: index as u32, share: share.max(0.0).min(1.0) }
+        Self { index: index as u32, share: unit(share) }
     }
 }
 
@@ -278,7 +277,12 @@ pub(super) fn ramp_inverse(area: f32, ends: [f32; 2]) -> f32 {
     // The root in the form that does not cancel where the ramp is flat: 2c / (a + √(a² + 2(b − a)c)).
     let divisor = a + safe_sqrt(a * a + 2.0 * (b - a) * area);
     let t = if divisor > 0.0 { 2.0 * area / divisor } else { 0.0 };
-    t.max(0.0).min(1.0)
+    unit(t)
+}
+
+/// Limits x to [0, 1]; NaN becomes zero.
+fn unit(x: f32) -> f32 {
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -1,12 +1,20 @@
-//! Wrong files of measurements: what a user sees, at the place in the scene that names the file.
+//! Files of measurements in scenes: what right ones reflect, and what a user sees of wrong ones, at the place in the scene
+//! that names the file.
 
 #[path = "support/errors.rs"]
 mod errors;
 
 use errors::{expect, expect_with};
 use std::f32::consts::FRAC_1_PI;
+use std::path::Path;
+use steradian::bsdf::measured::merl::{self, Extents};
 use steradian::bsdf::measured::tabulate::{Azimuths, Nodes, tabulate};
+use steradian::lab::Subject;
+use steradian::math::{LocalDir, Vec3};
 use steradian::optics::TrowbridgeReitz;
+use steradian::scene::import::pbrt::{Input, import};
+use steradian::scene::{MemoryFiles, compile};
+use steradian::spectrum::Wavelengths;
 
 /// A small `.bsdf` file of a grey surface.
 fn bsdf() -> Vec<u8> {
@@ -28,6 +36,44 @@ fn refused(name: &str, bytes: &[u8], message: &str) {
             " ".repeat(21)
         ),
     );
+}
+
+/// Reflectance at 550 nm for light from 40°, of a scene's material from a file.
+fn reflectance(name: &str, bytes: &[u8]) -> f32 {
+    let text = format!(
+        "WorldBegin\nMakeNamedMaterial \"m\" \"string type\" \"measured\" \"string filename\" \"{name}\"\n\
+         NamedMaterial \"m\"\nShape \"sphere\"\n"
+    );
+    let files = MemoryFiles::new().with(name, bytes);
+    let input = Input::Text { name: "scene.pbrt", bytes: text.as_bytes(), base: Path::new("") };
+    let mut imported = import(&[input], &files);
+    let job = compile(imported.scene.unwrap(), &files, &mut imported.diagnostics).unwrap();
+    let subject = Subject::find(&job, "m").unwrap();
+    let mut w = Wavelengths::exactly([550.0; 4]);
+    let bsdf = subject.scatterer(&mut w, 1).unwrap();
+    let (sin, cos) = 40.0_f32.to_radians().sin_cos();
+    bsdf.albedo(LocalDir::new(Vec3::new(0.6 * sin, 0.8 * sin, cos)).unwrap()).reflectance[0]
+}
+
+#[test]
+fn a_constant_f_of_a_half_over_pi_reflects_a_half_in_each_format() {
+    let grey = 0.5 * FRAC_1_PI;
+    let wavelengths = vec![400.0, 700.0];
+    let nodes = Nodes { theta: 5, azimuths: Azimuths::Isotropic, facets: 64, directions: 64, wavelengths };
+    let bsdf = tabulate(&TrowbridgeReitz::new(1.0, 1.0), &nodes, |_, _, _| grey);
+    let extents = Extents { theta_h: 20, theta_d: 20, phi_d: 20 };
+    let binary = merl::write(extents, |_, _| [grey; 3]);
+    let mut csv = "theta_i [deg], phi_i [deg], theta_o [deg], phi_o [deg], f [1/sr]\n".to_owned();
+    for theta_o in [0, 45, 90] {
+        csv += &format!("0, 0, {theta_o}, 0, {grey}\n80, 0, {theta_o}, 0, {grey}\n");
+    }
+    // Directions near the horizon lie between a node above it and one below in the first two.
+    for (name, bytes, tolerance) in
+        [("a.bsdf", bsdf, 0.02), ("a.binary", binary, 0.02), ("a.csv", csv.into_bytes(), 0.002)]
+    {
+        let rho = reflectance(name, &bytes);
+        assert!((rho - 0.5).abs() < tolerance, "{name}: {rho}");
+    }
 }
 
 #[test]
