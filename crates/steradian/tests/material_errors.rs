@@ -115,3 +115,59 @@ scene.pbrt:2:22: error: parameter "roughness" must be from 0 to 1, found 1.5
 "#,
     );
 }
+
+#[test]
+fn what_openpbr_cannot_show_is_refused_where_it_is_asked_for() {
+    expect(
+        r#"WorldBegin
+Material "openpbr" "float specular_roughness" 1.2 "float specular_color" 1
+"#,
+        r#"
+scene.pbrt:2:51: error: parameter "specular_color" has type float, expected texture, spectrum, rgb or blackbody
+ 2 | Material "openpbr" "float specular_roughness" 1.2 "float specular_color" 1
+   |                                                   ^^^^^^^^^^^^^^^^^^^^^^
+scene.pbrt:2:20: error: parameter "specular_roughness" must be from 0 to 1, found 1.2
+ 2 | Material "openpbr" "float specular_roughness" 1.2 "float specular_color" 1
+   |                    ^^^^^^^^^^^^^^^^^^^^^^^^^^
+"#,
+    );
+    expect(
+        r#"WorldBegin
+Material "openpbr" "float subsurface_weight" 0.5
+Material "openpbr" "float emission_luminance" 100
+Material "openpbr" "float transmission_weight" 1 "float transmission_depth" 2
+  "rgb transmission_color" [ 0.2 0.5 0.9 ]
+Material "openpbr" "float transmission_weight" 1 "float transmission_depth" 2
+  "rgb transmission_scatter" [ 0.2 0.5 0.9 ]
+"#,
+        r#"
+scene.pbrt:2:20: error: scattering under the surface is not supported, except with "geometry_thin_walled"; use "base_color" for dense materials
+ 2 | Material "openpbr" "float subsurface_weight" 0.5
+   |                    ^^^^^^^^^^^^^^^^^^^^^^^^^
+scene.pbrt:3:20: error: surfaces emit by an AreaLightSource, not by their material
+ 3 | Material "openpbr" "float emission_luminance" 100
+   |                    ^^^^^^^^^^^^^^^^^^^^^^^^^^
+scene.pbrt:4:50: error: absorption over a depth is not supported; leave it at 0, which tints light at the surface
+ 4 | Material "openpbr" "float transmission_weight" 1 "float transmission_depth" 2
+   |                                                  ^^^^^^^^^^^^^^^^^^^^^^^^^^
+scene.pbrt:7:3: error: scattering inside of the body is not supported; leave it at 0
+ 7 |   "rgb transmission_scatter" [ 0.2 0.5 0.9 ]
+   |   ^^^^^^^^^^^^^^^^^^^^^^^^^^
+"#,
+    );
+    expect(
+        r#"WorldBegin
+Material "openpbr" "float transmission_dispersion_scale" 1 "spectrum specular_ior" "glass-F11"
+Material "openpbr" "float transmission_dispersion_scale" 1
+  "float transmission_dispersion_abbe_number" 0
+"#,
+        r#"
+scene.pbrt:2:20: error: the spectrum "specular_ior" disperses by itself; give the index at 587.6 nm as a number
+ 2 | Material "openpbr" "float transmission_dispersion_scale" 1 "spectrum specular_ior" "glass-F11"
+   |                    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+scene.pbrt:4:3: error: dispersion needs an Abbe number above 0
+ 4 |   "float transmission_dispersion_abbe_number" 0
+   |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+"#,
+    );
+}

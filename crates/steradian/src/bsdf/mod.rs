@@ -19,6 +19,7 @@ pub mod legacy_phong;
 pub mod measured;
 pub mod mirror;
 pub mod modified_phong;
+pub mod openpbr;
 pub mod oren_nayar;
 mod quadrature;
 pub mod specimen;
@@ -40,6 +41,7 @@ pub use legacy_phong::LegacyPhong;
 pub use measured::{Measured, MeasuredTable};
 pub use mirror::Mirror;
 pub use modified_phong::{ModifiedPhong, PhongLobe, PhongNormalization, PhongSampling};
+pub use openpbr::OpenPbr;
 pub use oren_nayar::OrenNayar;
 pub use specimen::{Claims, Energy, Reciprocity, Specimen, Values};
 pub use stack::{Stack, StackCabinet};
@@ -80,6 +82,8 @@ pub enum Bsdf<'a> {
     CoatedDiffuse(Layered<Diffuse>),
     /// A dielectric coat over a metal.
     CoatedConductor(Layered<Conductor>),
+    /// OpenPBR Surface: a metal, glass or diffuse base under film, coat and fuzz.
+    OpenPbr(OpenPbr),
     /// A table of measurements.
     Measured(Measured<'a>),
     /// A hair.
@@ -110,6 +114,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.eval(wo, wi),
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
             Self::CoatedConductor(b) => b.eval(wo, wi, mode),
+            Self::OpenPbr(b) => b.eval(wo, wi, mode),
             Self::Measured(b) => b.eval(wo, wi, mode),
             Self::Hair(b) => b.eval(wo, wi),
             Self::Stack(b) => b.eval(wo, wi, mode),
@@ -133,6 +138,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedConductor(b) => b.pdf(wo, wi),
+            Self::OpenPbr(b) => b.pdf(wo, wi),
             Self::Measured(b) => b.pdf(wo, wi),
             Self::Hair(b) => b.pdf(wo, wi),
             Self::Stack(b) => b.pdf(wo, wi),
@@ -157,6 +163,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.sample(wo, uc, u),
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
+            Self::OpenPbr(b) => b.sample(wo, uc, u, mode),
             Self::Measured(b) => b.sample(wo, uc, u, mode),
             Self::Hair(b) => b.sample(wo, uc, u),
             Self::Stack(b) => b.sample(wo, uc, u, mode),
@@ -179,7 +186,11 @@ impl<'a> Bsdf<'a> {
             Self::ThinDielectric(b) => Some(b.albedo(wi)),
             Self::VarnishedDiffuse(b) => Some(b.albedo(wi)),
             Self::Stack(b) => b.albedo(wi),
-            Self::CoatedDiffuse(_) | Self::CoatedConductor(_) | Self::Measured(_) | Self::Hair(_) => None,
+            Self::CoatedDiffuse(_)
+            | Self::CoatedConductor(_)
+            | Self::OpenPbr(_)
+            | Self::Measured(_)
+            | Self::Hair(_) => None,
         };
         closed_form.unwrap_or_else(|| {
             // Towards sensors, weights are ratios of power.
@@ -220,6 +231,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.lobes(),
             Self::CoatedDiffuse(b) => b.lobes(),
             Self::CoatedConductor(b) => b.lobes(),
+            Self::OpenPbr(b) => b.lobes(),
             Self::Measured(b) => b.lobes(),
             Self::Hair(b) => b.lobes(),
             Self::Stack(b) => b.lobes(),
@@ -249,6 +261,7 @@ impl<'a> Bsdf<'a> {
                 layers.regularize();
                 *self = Self::CoatedDiffuse(layers);
             }
+            Self::OpenPbr(b) => b.regularize(),
             Self::CoatedDiffuse(b) => b.regularize(),
             Self::CoatedConductor(b) => b.regularize(),
             Self::Stack(b) => b.regularize(),
@@ -274,6 +287,7 @@ impl<'a> Bsdf<'a> {
             | Self::FinishedDielectric(_)
             | Self::ThinDielectric(_)
             | Self::VarnishedDiffuse(_)
+            | Self::OpenPbr(_)
             | Self::Measured(_)
             | Self::Hair(_) => {}
         }
@@ -303,6 +317,7 @@ impl<'a> Bsdf<'a> {
             Self::VarnishedDiffuse(b) => b.claims(),
             Self::CoatedDiffuse(b) => b.claims(),
             Self::CoatedConductor(b) => b.claims(),
+            Self::OpenPbr(b) => b.claims(),
             Self::Measured(b) => b.claims(),
             Self::Hair(b) => b.claims(),
             Self::Stack(b) => b.claims(),
@@ -328,6 +343,7 @@ impl<'a> Bsdf<'a> {
         all.extend(VarnishedDiffuse::specimens().map(|s| s.map(Self::VarnishedDiffuse)));
         all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
         all.extend(Layered::<Conductor>::specimens().map(|s| s.map(Self::CoatedConductor)));
+        all.extend(OpenPbr::specimens().map(|s| s.map(Self::OpenPbr)));
         all.extend(Measured::specimens(&cabinet.measured).map(|s| s.map(Self::Measured)));
         all.extend(Hair::specimens().map(|s| s.map(Self::Hair)));
         all.extend(Stack::specimens(&cabinet.stacks).map(|s| s.map(Self::Stack)));

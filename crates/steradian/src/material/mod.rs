@@ -18,6 +18,7 @@ pub mod mix;
 pub mod modified_phong;
 pub mod oren_nayar;
 mod passive;
+pub mod openpbr;
 pub mod schema;
 pub mod stack;
 pub mod surface;
@@ -35,6 +36,7 @@ pub use mirror::MirrorMaterial;
 pub use mix::{InterfaceMaterial, MixMaterial};
 pub use modified_phong::ModifiedPhongMaterial;
 pub use oren_nayar::OrenNayarMaterial;
+pub use openpbr::OpenPbrMaterial;
 pub use schema::{Arguments, Fault, MaterialId, Parameter, ParameterKind};
 pub use stack::{StackBase, StackMaterial};
 pub use surface::{SurfaceBsdf, SurfaceSample};
@@ -134,6 +136,8 @@ materials! {
     Hair(HairMaterial),
     /// A stack of layers.
     Stack(StackMaterial),
+    /// OpenPBR Surface.
+    OpenPbr(OpenPbrMaterial),
     /// One of two materials.
     Mix(MixMaterial),
     /// The boundary of a medium.
