@@ -68,3 +68,23 @@ impl Mirror {
         .map(|(name, bsdf)| Specimen::new(name, bsdf.claims(), bsdf))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::warp;
+    use crate::optics::refraction;
+
+    #[test]
+    fn light_comes_from_the_mirror_direction_with_the_reflectance_as_its_weight() {
+        let mirror = Mirror { reflectance: Sampled::from_array([0.1, 0.8, 0.4, 0.0]) };
+        for degrees in [0.0_f32, 50.0, 89.0, 130.0] {
+            let wo = LocalDir::new_unchecked(warp::spherical_direction(degrees.to_radians(), 0.4));
+            let s = mirror.sample(wo).unwrap();
+            assert!((*s.wi - refraction::reflect(*wo, Vec3::Z)).length() < 1e-6, "{degrees}: {s:?}");
+            assert_eq!((s.weight, s.density), (mirror.reflectance, Density::Delta));
+        }
+        let along = LocalDir::new_unchecked(Vec3::X);
+        assert!(mirror.sample(along).is_none());
+    }
+}
