@@ -1,4 +1,5 @@
 //! Legacy shading against A (26)–(28) and (34)–(40), one ray at a time. Light is stated in absolute units.
+#![allow(clippy::expect_used, clippy::panic, reason = "tests fail by panicking")]
 
 mod support;
 
@@ -30,7 +31,7 @@ fn radiance(integrator: &str, world: &str, towards: V) -> f64 {
     let text = format!("{SMALL_FILM}\nIntegrator \"classic\" {integrator}\nWorldBegin\n{world}\n{PLANE}");
     let job = job(&text);
     let IntegratorSettings::Classic(settings) = &job.integrator else { panic!("not classic") };
-    let shading = ClassicShading { ambient: settings.ambient.as_ref(), shadows: settings.shadows };
+    let shading = ClassicShading { ambient: settings.ambient.as_deref(), shadows: settings.shadows };
     let [x, y, z] = towards.map(|x| x as f32);
     let ray = Ray { o: Point::ORIGIN, d: Vec3::new(x, y, z), time: 0.0 };
     let mut sampler = Sampler::new(SamplerKind::Independent, 1, [8, 8], 0);

@@ -74,7 +74,7 @@ pub fn render(
             Box::new(PathTracer { max_depth: p.max_depth, regularize: p.regularize })
         }
         IntegratorSettings::Classic(c) => {
-            Box::new(ClassicShading { ambient: c.ambient.as_ref(), shadows: c.shadows })
+            Box::new(ClassicShading { ambient: c.ambient.as_deref(), shadows: c.shadows })
         }
     };
     let worker = Worker { job, film: &film, integrator: &*integrator, layer_from_render: layer_space(job) };

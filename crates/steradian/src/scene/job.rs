@@ -77,7 +77,7 @@ impl IntegratorSettings {
 #[derive(Clone, Debug)]
 pub struct ClassicSettings {
     /// Uniform surroundings, whose radiance is Ia of A (36).
-    pub ambient: Option<Light>,
+    pub ambient: Option<Box<Light>>,
     /// Whether surfaces cast shadows.
     pub shadows: bool,
 }

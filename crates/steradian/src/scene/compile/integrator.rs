@@ -40,6 +40,7 @@ pub(super) fn choose(
 ) -> IntegratorSettings {
     if let IntegratorKind::Classic(classic) = &scene.integrator.kind {
         report_lights_left_out(scene, diagnostics);
+        let ambient = ambient.map(Box::new);
         return IntegratorSettings::Classic(ClassicSettings { ambient, shadows: classic.shadows });
     }
     for material in scene.materials.iter().filter(|m| m.class.name == LegacyPhongMaterial::CLASS) {
