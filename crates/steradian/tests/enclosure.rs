@@ -81,10 +81,10 @@ fn relative_radiance(
         let Some(s) = sample(Mode::Radiance) else { return sum };
         index *= s.eta;
         let mut carried = 0.0_f32;
-        for lane in 0..LANES {
-            throughput[lane] *= s.weight[lane];
+        for (lane, t) in throughput.iter_mut().enumerate() {
+            *t *= s.weight[lane];
             // Radiance over η² is what is conserved.
-            carried = carried.max(throughput[lane] * index * index);
+            carried = carried.max(*t * index * index);
         }
         // What is emitted and what is carried on sum to one as they go: roulette late leaves little noise.
         if carried < 0.05 {

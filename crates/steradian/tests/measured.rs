@@ -1,6 +1,8 @@
 //! Files of measurements in scenes: what right ones reflect, and what a user sees of wrong ones, at the place in the scene
 //! that names the file.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 #[path = "support/errors.rs"]
 mod errors;
 

@@ -35,8 +35,8 @@ pub use measured::MeasuredMaterial;
 pub use mirror::MirrorMaterial;
 pub use mix::{InterfaceMaterial, MixMaterial};
 pub use modified_phong::ModifiedPhongMaterial;
-pub use oren_nayar::OrenNayarMaterial;
 pub use openpbr::OpenPbrMaterial;
+pub use oren_nayar::OrenNayarMaterial;
 pub use schema::{Arguments, Fault, MaterialId, Parameter, ParameterKind};
 pub use stack::{StackBase, StackMaterial};
 pub use surface::{SurfaceBsdf, SurfaceSample};
@@ -237,7 +237,13 @@ impl Materials {
         let of = |id: MaterialId| self.needs_footprint(id);
         let needs_footprint =
             material.is_textured() || detail != Detail::Flat || material.parts().iter().any(|&id| of(id));
-        self.entries.push(Entry { material, detail, needs_footprint, label: String::new(), range: (0.0, f32::INFINITY) });
+        self.entries.push(Entry {
+            material,
+            detail,
+            needs_footprint,
+            label: String::new(),
+            range: (0.0, f32::INFINITY),
+        });
         Ok(MaterialId(self.entries.len() as u32 - 1))
     }
 

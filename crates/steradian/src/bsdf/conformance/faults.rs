@@ -416,7 +416,7 @@ impl Scatterer for Planted {
         if self.has(Fault::NanAtGrazing) {
             // 0/0 in the surface.
             let cosines = wo.z * wi.z;
-            return self.value(wo, wi, mode) * (cosines / cosines);
+            return self.value(wo, wi, mode) * cosines / cosines;
         }
         let cosine = if self.has(Fault::CosineInValue) { wi.abs_cos_theta() } else { 1.0 };
         self.value(wo, wi, mode) * cosine

@@ -231,7 +231,7 @@ impl<B: Scatterer> Bench<'_, B> {
             [off_horizon(theta), TAU * rng.next_f32()]
         };
         let [to, po] = direction(i % 4 == 1);
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             let [ti, pi] = direction(i % 4 == 2);
             return Some([to, po, ti, pi]);
         }

@@ -1,7 +1,10 @@
 //! Small measurements of surfaces that are known in closed form.
 
+use super::goniometer::GoniometerTable;
+use super::merl::{self, MerlTable};
+use super::rgl::RglTable;
+use super::table::MeasuredTable;
 use super::tabulate::{Azimuths, Nodes, tabulate};
-use super::{GoniometerTable, MeasuredTable, MerlTable, RglTable, merl};
 use crate::math::{LocalDir, Vec3, warp::spherical_direction};
 use crate::optics::{TrowbridgeReitz, fresnel};
 use std::f32::consts::FRAC_1_PI;

@@ -4,9 +4,11 @@
 //! polarisation. Layers are thick, so that the summands do not interfere.
 
 use super::layers::{Layers, MAX_LAYERS};
-use crate::bsdf::contract::{Mode, Side, Sides};
+use crate::bsdf::conductor::Conductor;
+use crate::bsdf::contract::{BsdfSample, Mode, Side, Sides};
+use crate::bsdf::dielectric::Dielectric;
+use crate::bsdf::diffuse::Diffuse;
 use crate::bsdf::quadrature::GAUSS_LEGENDRE;
-use crate::bsdf::{Conductor, Dielectric, Diffuse};
 use crate::math::float::safe_sqrt;
 use crate::math::{LocalDir, Vec2, Vec3};
 use crate::optics::{TrowbridgeReitz, absorption, fresnel};
@@ -536,7 +538,7 @@ impl Value {
     }
 }
 
-fn from_base(s: crate::bsdf::BsdfSample) -> Option<Drawn> {
+fn from_base(s: BsdfSample) -> Option<Drawn> {
     debug_assert!(s.side == Side::Reflection);
     let pdf = match s.density {
         Density::SolidAngle(p) => Some(p.0),

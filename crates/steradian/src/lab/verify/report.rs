@@ -248,7 +248,8 @@ impl SubjectReport {
     }
 
     fn contradicts(&self, f: &Finding) -> bool {
-        !f.is_as_claimed() && !(self.origin == Origin::Material && f.expectation == Expectation::Broken)
+        let lawless = self.origin == Origin::Material && f.expectation == Expectation::Broken;
+        !(f.is_as_claimed() || lawless)
     }
 
     fn findings(&self) -> impl Iterator<Item = (&Inspection, &Finding)> {
