@@ -83,11 +83,12 @@ impl Cell {
         sum.map(|s| s * self.extent(0) * self.extent(1))
     }
 
-    /// Refines until four quarters say what the whole says.
+    /// Refines until four quarters say what the whole says, and no witness speaks of a peak that the nodes did not see.
     fn adaptive<const M: usize>(
         &self,
         f: &mut impl FnMut(LocalDir) -> [f64; M],
         whole: [f64; M],
+        witnesses: &[(Angles, [f64; M])],
         absolute: f64,
         depth: u32,
         budget: &mut u32,
@@ -96,13 +97,18 @@ impl Cell {
         let values = quarters.map(|q| q.gauss(f));
         let fine: [f64; M] = std::array::from_fn(|m| values.iter().map(|v| v[m]).sum());
         let settled = (0..M).all(|m| !((fine[m] - whole[m]).abs() > absolute.max(RELATIVE * fine[m].abs())));
-        if settled || depth == 0 || *budget == 0 {
+        let size = self.size();
+        let unseen = witnesses
+            .iter()
+            .filter(|(at, _)| self.contains(at))
+            .any(|(_, value)| (0..M).any(|m| value[m] * size[0] * size[1] > PEAK * fine[m].abs() + absolute));
+        if (settled && !unseen) || depth == 0 || *budget == 0 {
             return fine;
         }
         *budget -= 1;
         let mut sum = [0.0; M];
         for (quarter, value) in quarters.iter().zip(values) {
-            let refined = quarter.adaptive(f, value, 0.5 * absolute, depth - 1, budget);
+            let refined = quarter.adaptive(f, value, witnesses, 0.5 * absolute, depth - 1, budget);
             for (sum, value) in sum.iter_mut().zip(refined) {
                 *sum += value;
             }
@@ -113,7 +119,11 @@ impl Cell {
 
 /// Accepted difference between two levels of refinement; the finer one is better by more than an order.
 const RELATIVE: f64 = 4e-3;
-const DEPTH: u32 = 7;
+const DEPTH: u32 = 9;
+/// How far a value may exceed the mean over its cell.
+const PEAK: f64 = 10.0;
+/// Pilot samples of a cell at which the function is looked at.
+const WITNESSES: usize = 8;
 /// Most refinements of one integral: more would chase noise.
 const REFINEMENTS: u32 = 8_000;
 
@@ -126,6 +136,9 @@ enum Node {
 pub(super) struct Partition {
     nodes: Vec<Node>,
     leaves: Vec<Cell>,
+    /// The pilot samples in the order of the leaves, and where those of each leaf end.
+    points: Vec<Angles>,
+    ends: Vec<usize>,
     /// The coarse cell that each leaf belongs to.
     group: Vec<usize>,
     groups: usize,
@@ -137,12 +150,25 @@ impl Partition {
     pub(super) fn adapted(pilots: &[LocalDir], per_leaf: usize, beacons: &[LocalDir]) -> Self {
         let mut points: Vec<Angles> = pilots.iter().map(|&w| Angles::of(w)).collect();
         let beacons: Vec<Angles> = beacons.iter().map(|&w| Angles::of(w)).collect();
-        let mut partition = Self { nodes: Vec::new(), leaves: Vec::new(), group: Vec::new(), groups: 0 };
+        let mut partition = Self {
+            nodes: Vec::new(),
+            leaves: Vec::new(),
+            points: Vec::new(),
+            ends: Vec::new(),
+            group: Vec::new(),
+            groups: 0,
+        };
         let builder = Builder { per_leaf, per_group: (points.len() / 32).max(per_leaf), beacons };
         // The horizon is a boundary: functions jump there.
         let sphere = Cell { lo: [0.0, 0.0], hi: [PI, TAU] };
         builder.split(&mut partition, sphere, &mut points, Some((0, FRAC_PI_2)), None, 64);
+        partition.points = points;
         partition
+    }
+
+    fn pilots(&self, leaf: usize) -> &[Angles] {
+        let start = leaf.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.points[start..self.ends[leaf]]
     }
 
     /// Number of cells.
@@ -196,9 +222,12 @@ impl Partition {
         let mut budget = REFINEMENTS;
         self.leaves
             .iter()
-            .map(|cell| {
+            .enumerate()
+            .map(|(leaf, cell)| {
                 let whole = cell.gauss(f);
-                cell.adaptive(f, whole, absolute, DEPTH, &mut budget)
+                let witnesses: Vec<(Angles, [f64; M])> =
+                    self.pilots(leaf).iter().take(WITNESSES).map(|&at| (at, f(at.direction()))).collect();
+                cell.adaptive(f, whole, &witnesses, absolute, DEPTH, &mut budget)
             })
             .collect()
     }
@@ -250,6 +279,8 @@ impl Builder {
                 partition.groups - 1
             });
             partition.leaves.push(cell);
+            let before = partition.ends.last().copied().unwrap_or(0);
+            partition.ends.push(before + points.len());
             partition.group.push(group);
             Node::Leaf(partition.leaves.len() - 1)
         };
@@ -323,6 +354,28 @@ mod tests {
             assert_eq!(partition.cell(w), cell);
             assert_eq!(partition.is_above(cell), w.z > 0.0);
         }
+    }
+
+    #[test]
+    fn a_narrow_lobe_is_seen_among_wide_ones() {
+        // Half of the samples from a lobe some milliradians wide, half from the cosine.
+        let (n, axis) = (1e5_f64, LocalDir::new(Vec3::new(0.6, 0.3, 0.742)).unwrap());
+        let frame = crate::math::Frame::from_z(*axis);
+        let mut rng = Pcg32::new(1, 1);
+        let mut pilots = cosine_samples(2048);
+        pilots.extend((0..2048).map(|_| {
+            let cos = rng.next_f32().powf(1.0 / (n as f32 + 1.0));
+            let w = warp::uniform_cone(Vec2::new(1.0, rng.next_f32()), 1.0 - cos);
+            LocalDir::new(frame.s * w.x + frame.t * w.y + frame.n * w.z).unwrap()
+        }));
+        let partition = Partition::adapted(&pilots, 16, &[]);
+        let values = partition.integrate(&mut |w| {
+            let cos = 1.0 - 0.5 * f64::from((*w - *axis).length_squared());
+            let lobe = if cos > 0.0 { cos.powf(n) * (n + 1.0) / TAU } else { 0.0 };
+            [0.5 * lobe + 0.5 * f64::from(w.z.max(0.0)) / PI]
+        });
+        let total: f64 = values.iter().map(|v| v[0]).sum();
+        assert!((total - 1.0).abs() < 5e-4, "{total}");
     }
 
     #[test]
