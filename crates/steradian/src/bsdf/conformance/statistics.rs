@@ -41,31 +41,33 @@ pub(super) struct ChiSquared {
 }
 
 impl ChiSquared {
-    /// Cells that expect fewer than five counts are pooled into one.
+    /// Cells that expect fewer than five counts, or less than a tenth of the mean, are pooled into one: margins of a lobe, in
+    /// which the expectation is known worst.
     pub(super) fn test(observed: &[f64], expected: &[f64]) -> Self {
+        let filled = expected.iter().filter(|&&e| e >= 5.0).count().max(1);
+        let least = (0.1 * expected.iter().sum::<f64>() / filled as f64).max(5.0);
         let (mut statistic, mut cells) = (0.0, 0_u32);
         let mut pool = (0.0, 0.0);
         for (&o, &e) in observed.iter().zip(expected) {
-            if e < 5.0 {
+            if e < least {
                 pool = (pool.0 + o, pool.1 + e);
             } else {
                 statistic += (o - e) * (o - e) / e;
                 cells += 1;
             }
         }
+        let mut strays = 1.0;
         if pool.1 >= 5.0 {
             statistic += (pool.0 - pool.1) * (pool.0 - pool.1) / pool.1;
             cells += 1;
-        } else if pool.0 > pool.1 + 10.0 {
-            // Counts where next to none may be: the statistic has no χ² limit, and needs none.
-            return Self { statistic: f64::INFINITY, degrees_of_freedom: cells, p: 0.0 };
+        } else if pool.0 > pool.1 {
+            // Too few for a χ² limit: P(X ≥ o) of a Poisson variable, which is the lower gamma function.
+            strays = (1.0 - upper_gamma(pool.0, pool.1)).max(0.0);
         }
         let degrees_of_freedom = cells.saturating_sub(1).max(1);
-        Self {
-            statistic,
-            degrees_of_freedom,
-            p: upper_gamma(f64::from(degrees_of_freedom) / 2.0, statistic / 2.0),
-        }
+        let p = upper_gamma(f64::from(degrees_of_freedom) / 2.0, statistic / 2.0);
+        // Two tests in one.
+        Self { statistic, degrees_of_freedom, p: if strays < p { (2.0 * strays).min(1.0) } else { p } }
     }
 }
 
@@ -148,6 +150,15 @@ mod tests {
         }
         let each = sidak(0.01, 1000);
         assert!((1.0 - (1.0 - each).powi(1000) - 0.01).abs() < 1e-12, "{each}");
+    }
+
+    #[test]
+    fn counts_where_next_to_none_may_be_are_found_and_chance_is_not_accused() {
+        let expected = [1000.0, 1000.0, 1.5, 2.5];
+        let p = |strays| ChiSquared::test(&[1000.0, 1000.0, 0.0, strays], &expected).p;
+        // P(X ≥ 9 | 4) = 0.0214, P(X ≥ 40 | 4) < 1e-25.
+        assert!((p(9.0) - 2.0 * 0.021_363).abs() < 1e-4, "{}", p(9.0));
+        assert!(p(40.0) < 1e-12 && p(4.0) > 0.5);
     }
 
     #[test]

@@ -19,6 +19,9 @@ const CHECKED: u32 = 1 << 14;
 /// Samples of an estimated function stand for random walks and are as many times dearer.
 const DEARER: u32 = 2;
 
+/// Share of the arriving power below which a cell of an estimated function is not judged: its walks are too few.
+const NEGLIGIBLE: f64 = 1e-3;
+
 /// What is put under the survey.
 #[derive(Clone, Copy)]
 pub(super) struct Bench<'a, B> {
@@ -284,7 +287,7 @@ impl<B: Scatterer> Bench<'_, B> {
                 let found = Discrepancy {
                     observed: sampled.value,
                     expected: integrals[lane].value,
-                    tolerance: self.effort.sigmas() * error + 5e-3 * sampled.value + 1e-5,
+                    tolerance: self.effort.sigmas() * error + 5e-3 * sampled.value + NEGLIGIBLE,
                     wi: survey.middle_of_group(group),
                     lane: Some(lane),
                 };
