@@ -4,7 +4,7 @@ use crate::optics::fresnel::{Polarized, conductor_polarized, dielectric_polarize
 use crate::spectrum::Sampled;
 use crate::units::Unitless;
 
-/// The bare interface that light meets first: relative complex index η − ik of the far side over the near one.
+/// The bare interface that light meets first: relative complex index η + jk of the far side over the near one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interface {
     /// Real part, above 0.

@@ -347,7 +347,7 @@ pub fn index_over_wavelength(subject: &Subject<'_>) -> Result<Option<Chart>, Pro
         curves.push(Curve::new("k", series_ink(1), k).dashed(Dash::Dashed));
     }
     let (what, y) = match absorbs {
-        true => ("complex index η − ik", Axis::new("relative index [1]").including(&[0.0])),
+        true => ("complex index η + jk", Axis::new("relative index [1]").including(&[0.0])),
         false => ("index of refraction", Axis::new("relative index [1]")),
     };
     Ok(Some(Chart { title: format!("{}: {what}", subject.name()), x: wavelength_axis(), y, curves }))
