@@ -9,7 +9,7 @@ use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN};
 /// What is looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// Wavelengths [nm], at least one.
+    /// Wavelengths in nm, at least one.
     pub wavelengths: Vec<f32>,
     /// Angles of the arriving light to the normal [degrees], in [0, 180], at least one.
     pub thetas: Vec<f64>,
