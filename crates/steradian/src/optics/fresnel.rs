@@ -80,13 +80,11 @@ impl Crossing {
         if eta2_cos2_theta_t <= 0.0 {
             return Self { reflectance: 1.0, eta, eta_cos_theta_t: 0.0 };
         }
-        // r_s = (ci − a)/(ci + a), r_p = (b − a)/(b + a), over their common denominator.
+        // Divided before they are squared: at grazing incidence between like media the squares vanish.
         let a = eta2_cos2_theta_t.sqrt();
         let b = eta2 * ci;
-        let s = (ci - a) * (b + a);
-        let p = (b - a) * (ci + a);
-        let d = (ci + a) * (b + a);
-        Self { reflectance: 0.5 * (s * s + p * p) / (d * d), eta, eta_cos_theta_t: a }
+        let (s, p) = ((ci - a) / (ci + a), (b - a) / (b + a));
+        Self { reflectance: 0.5 * (s * s + p * p), eta, eta_cos_theta_t: a }
     }
 
     /// The refracted unit direction of `w`, whose cosine to the unit normal `n` the crossing was made for,
@@ -193,6 +191,21 @@ mod tests {
 
     const INDICES: [f32; 8] = [0.05, 0.43, 0.7, 1.0001, 1.33, 1.5, 2.4, 6.0];
     const EXTINCTIONS: [f32; 6] = [0.0, 1e-3, 0.1, 0.5, 2.455, 8.0];
+
+    #[test]
+    fn every_cosine_and_contrast_reflects_a_share() {
+        for eta in [0.01_f32, 1.0 / 1.5, 1.0 - 1e-7, 1.0, 1.0 + 2e-7, 1.5, 100.0] {
+            for exponent in 0..=45 {
+                for sign in [1.0_f32, -1.0] {
+                    let c = sign * 10.0_f32.powi(-exponent);
+                    let both = dielectric_polarized(c, eta);
+                    for r in [dielectric(c, eta), both.s, both.p, conductor(c.abs(), eta, 1e-3)] {
+                        assert!((0.0..=1.0 + 1e-6).contains(&r), "{c} {eta}: {r}");
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn glass_at_normal_incidence_brewster_and_critical_angle() {

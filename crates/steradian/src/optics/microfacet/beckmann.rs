@@ -200,6 +200,39 @@ mod tests {
     }
 
     #[test]
+    fn slopes_seen_along_the_normal_are_gaussian_out_to_their_tails() {
+        use crate::math::hash::Pcg32;
+        use statrs::distribution::{ChiSquared, ContinuousCDF};
+        // tan²θ/α² of two Gaussian slopes is exponential with mean 1 (D cosθ dω over tanθ): cells of equal probability,
+        // and four of the tail, each a tenth of the one before.
+        let n = 1_000_000_u32;
+        let mut edges: Vec<f64> = (1..50).map(|i| f64::from(i) / 50.0).collect();
+        edges.extend([0.99, 0.999, 0.9999, 0.99999]);
+        for alpha in [0.01_f32, 0.1, 1.0] {
+            let d = Beckmann::new(alpha, alpha);
+            let mut rng = Pcg32::new(11, 3);
+            let mut counts = vec![0_u32; edges.len() + 1];
+            for _ in 0..n {
+                let u = Vec2::new(rng.next_f32(), rng.next_f32());
+                let wm = d.sample_visible(LocalDir::Z, u);
+                let slope = f64::from(wm.x).hypot(f64::from(wm.y)) / f64::from(wm.z) / f64::from(alpha);
+                let cdf = -(-slope * slope).exp_m1();
+                counts[edges.partition_point(|&e| e <= cdf)] += 1;
+            }
+            let mut low = 0.0;
+            let mut statistic = 0.0;
+            for (count, high) in counts.iter().zip(edges.iter().copied().chain([1.0])) {
+                let expected = (high - low) * f64::from(n);
+                statistic += (f64::from(*count) - expected).powi(2) / expected;
+                low = high;
+            }
+            // Three tests at a joint level of 1 %.
+            let p = 1.0 - ChiSquared::new(edges.len() as f64).unwrap().cdf(statistic);
+            assert!(p > 0.01 / 3.0, "{alpha}: χ² = {statistic:.1}, p = {p:.2e}");
+        }
+    }
+
+    #[test]
     fn lambda_is_the_exact_one() {
         // Λ(a) = ½ (erf a − 1 + e^(−a²)/(a√π)) in f64, at 1/tanθ = a.
         for a in [0.01_f64, 0.1, 0.5, 1.0, 1.6, 3.0] {
