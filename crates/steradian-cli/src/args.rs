@@ -41,6 +41,9 @@ pub(crate) enum Command {
     Bsdf(Bsdf),
     /// Draw how a material of a scene scatters: lobes, albedo, Fresnel curves, spectra; or a sphere of it
     Plot(Plot),
+    /// Put a material or a scene under a virtual instrument
+    #[command(subcommand)]
+    Measure(crate::measure::Measure),
 }
 
 #[derive(Args, Debug)]
@@ -319,7 +322,7 @@ pub(crate) enum Transport {
     Importance,
 }
 
-fn parse_angles(text: &str) -> Result<Angles, String> {
+pub(crate) fn parse_angles(text: &str) -> Result<Angles, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some(&[theta, phi]) => angles(theta, phi),
@@ -343,7 +346,7 @@ fn parse_theta(text: &str) -> Result<f64, String> {
     angles(theta, 0.0).map(|a| a.theta)
 }
 
-fn parse_uv(text: &str) -> Result<[f32; 2], String> {
+pub(crate) fn parse_uv(text: &str) -> Result<[f32; 2], String> {
     let numbers: Option<Vec<f32>> =
         text.split(',').map(|n| n.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
     match numbers.as_deref() {
@@ -362,7 +365,7 @@ fn parse_resolution(text: &str) -> Result<[u32; 2], String> {
     }
 }
 
-fn parse_wavelength(text: &str) -> Result<f32, String> {
+pub(crate) fn parse_wavelength(text: &str) -> Result<f32, String> {
     match text.trim().trim_end_matches("nm").trim().parse() {
         Ok(nm) if (200.0..=2500.0).contains(&nm) => Ok(nm),
         Ok(_) => Err("wavelengths must lie between 200 and 2500 nm".to_owned()),

@@ -9,7 +9,8 @@ use std::io::Read as _;
 use std::path::Path;
 use steradian::bsdf::{Mode, Side};
 use steradian::lab::Subject;
-use steradian::lab::probe::{AlbedoReading, Angles, Discrete, Estimate, Probe, Reading};
+use steradian::lab::probe::{AlbedoReading, Angles, Discrete, Probe, Reading};
+use steradian::units::Estimate;
 
 pub(crate) fn run(arguments: &args::Bsdf) -> Result<(), Failure> {
     let stdin = Path::new("-");

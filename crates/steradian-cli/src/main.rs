@@ -4,13 +4,16 @@ mod args;
 mod bsdf;
 mod compare;
 mod inspect;
+mod interrupt;
 mod load;
+mod measure;
 mod output;
 mod pick;
 mod plot;
 mod progress;
 mod raster;
 mod render;
+mod sheet;
 mod verify;
 
 use args::{Cli, Command};
@@ -53,6 +56,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bsdf(arguments) => bsdf::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
+        Command::Measure(measure) => measure::run(&measure),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,10 +2,11 @@
 
 use crate::args::{self, LobeRadius, LobeScale, PlotKind};
 use crate::load;
-use crate::output::{OutputFile, Target, note};
-use crate::{Failure, pick, raster};
-use std::path::{Path, PathBuf};
-use steradian::lab::plot::{Drawing, Scale, svg};
+use crate::output::{Target, note};
+use crate::sheet::Sheet;
+use crate::{Failure, pick};
+use std::path::PathBuf;
+use steradian::lab::plot::{Drawing, Scale};
 use steradian::lab::preview::preview;
 use steradian::lab::probe::ProbeError;
 use steradian::lab::{Subject, portrait};
@@ -27,37 +28,6 @@ pub(crate) fn run(arguments: &args::Plot) -> Result<(), Failure> {
         note(&format!("material \"{}\": {}", subject.name(), names.join(", ")));
     }
     Ok(())
-}
-
-/// A file that a drawing goes to.
-struct Sheet {
-    file: OutputFile,
-    format: SheetFormat,
-}
-
-#[derive(Clone, Copy)]
-enum SheetFormat {
-    Svg,
-    Png,
-}
-
-impl Sheet {
-    fn new(path: &Path) -> Result<Self, String> {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-        let format = match extension.as_str() {
-            "svg" => SheetFormat::Svg,
-            "png" => SheetFormat::Png,
-            _ => return Err(format!("{}: plots are written as .svg or .png", path.display())),
-        };
-        Ok(Self { file: OutputFile::new(path)?, format })
-    }
-
-    fn write(&self, drawing: &Drawing) -> Result<(), String> {
-        match self.format {
-            SheetFormat::Svg => self.file.write(svg(drawing).as_bytes()),
-            SheetFormat::Png => self.file.write(&raster::png(drawing)?),
-        }
-    }
 }
 
 fn figures(arguments: &args::Plot, subject: &Subject<'_>) -> Result<Vec<PathBuf>, Failure> {

@@ -1,12 +1,12 @@
 //! `steradian render`.
 
-use crate::Failure;
 use crate::args;
 use crate::load::{self, Verbosity};
 use crate::output::{Target, note};
 use crate::progress::{Reporter, clock};
+use crate::{Failure, interrupt};
 use std::path::{Path, PathBuf};
-use steradian::render::{CancelToken, RenderOptions, Report};
+use steradian::render::{RenderOptions, Report};
 use steradian::scene::{Overrides, SceneDesc};
 
 pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {
@@ -23,8 +23,7 @@ pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {
     let targets = outputs.iter().map(|p| Target::new(p)).collect::<Result<Vec<_>, _>>()?;
     let job = loading.compile(verbosity)?;
 
-    let cancel = CancelToken::new();
-    stop_on_interrupt(&cancel);
+    let cancel = interrupt::token("stopping after this pass; press Ctrl-C again to stop at once");
     let reporter = Reporter::new(arguments.quiet);
     reporter.begin(&job);
     let options = RenderOptions {
@@ -80,22 +79,6 @@ fn default_outputs(desc: &SceneDesc, built_in: bool) -> Vec<PathBuf> {
         vec![named, png]
     } else {
         vec![named]
-    }
-}
-
-fn stop_on_interrupt(cancel: &CancelToken) {
-    let cancel = cancel.clone();
-    let handler = move || {
-        if cancel.is_cancelled() {
-            // The second time the user means it.
-            std::process::exit(130);
-        }
-        cancel.cancel();
-        note("stopping after this pass; press Ctrl-C again to stop at once");
-    };
-    // Without a handler Ctrl-C ends the program at once, as it does everywhere.
-    if let Err(e) = ctrlc::set_handler(handler) {
-        note(&format!("warning: Ctrl-C will not save the image: {e}"));
     }
 }
 

@@ -1,10 +1,16 @@
-//! The light laboratory: the scene's own materials under virtual instruments.
+//! The light laboratory: the scene's own materials and lights under virtual instruments.
 
 pub mod plot;
 pub mod portrait;
+pub mod precision;
 pub mod preview;
 pub mod probe;
+pub mod session;
 pub mod subject;
+pub mod table;
 pub mod verify;
 
+pub use precision::{Moments, Precision};
+pub use session::{Block, Ending, Outcome, Session, Tally};
 pub use subject::{Subject, UnknownMaterial};
+pub use table::{Cell, Column, Table};

@@ -7,6 +7,7 @@ use crate::math::float::ONE_MINUS_EPSILON;
 use crate::math::hash::{self, Pcg32};
 use crate::math::{LocalDir, Vec2, Vec3};
 use crate::spectrum::{LANES, Wavelengths};
+use crate::units::Estimate;
 
 /// Half-width of a 95 % interval in standard errors of a mean of many.
 const NORMAL_95: f64 = 1.959_964;
@@ -38,21 +39,6 @@ impl Angles {
         // At the pole the azimuth says nothing.
         let phi = if sin < 1e-7 { 0.0 } else { y.atan2(x).to_degrees().rem_euclid(360.0) };
         Self { theta: sin.atan2(z).to_degrees(), phi }
-    }
-}
-
-/// A number and how well it is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// The number.
-    pub value: f64,
-    /// Half the width of its 95 % interval; 0 for closed forms.
-    pub half_width: f64,
-}
-
-impl Estimate {
-    fn scaled(self, factor: f64) -> Self {
-        Self { value: self.value * factor, half_width: self.half_width * factor.abs() }
     }
 }
 

@@ -4,9 +4,17 @@
 //! `f32` with the unit in its doc line is used. The tags mark what a spectral sample measures.
 
 pub mod density;
+pub mod estimate;
+pub mod kind;
+pub mod measured;
 pub mod quantity;
 
 pub use density::{Density, PdfArea, PdfSolidAngle};
+pub use estimate::Estimate;
+pub use measured::{
+    Illuminance, Luminance, LuminousFlux, LuminousIntensity, Measured, RadiantEnergy, RadiantExitance,
+    SpectralIrradiance,
+};
 pub use quantity::{Kelvin, Nm, PerSteradian, Quantity, Radiance, Unitless};
 
 /// Luminous efficacy constant K_m, 683.002 lm/W: maximum of photopic efficacy of radiation in air

@@ -1,0 +1,28 @@
+//! `steradian measure`: virtual instruments.
+
+mod common;
+mod series;
+
+use crate::{Failure, interrupt};
+use clap::Subcommand;
+use steradian::render::CancelToken;
+
+/// The instruments.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Measure {
+    /// Carry out the measurements that a job file lists
+    Series(series::Series),
+}
+
+pub(crate) fn run(measure: &Measure) -> Result<(), Failure> {
+    execute(
+        measure,
+        &interrupt::token("stopping with the precision reached so far; press Ctrl-C again to stop at once"),
+    )
+}
+
+fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
+    match measure {
+        Measure::Series(series) => series::run(series, cancel),
+    }
+}
