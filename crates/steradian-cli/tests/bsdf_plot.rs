@@ -1,10 +1,10 @@
 //! `steradian bsdf` and `steradian plot`: numbers that are known beforehand, pictures that can be read, faults that are named.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "tests fail by panicking")]
 
+mod support;
+
 use serde_json::Value;
-use std::io::Write as _;
-use std::process::{Command, Stdio};
-use tempfile::TempDir;
+use support::desk::Desk;
 
 const SCENE: &str = r#"
 WorldBegin
@@ -20,41 +20,18 @@ MakeNamedMaterial "both" "string type" "mix" "string materials" [ "paint" "gold"
 Shape "plymesh" "string filename" "a-file-that-is-not-there.ply"
 "#;
 
-/// A folder to work in, with the scene as `scene.pbrt`.
-struct Desk(TempDir);
+/// Questions to the program about the materials of the scene.
+struct Bench(Desk);
 
-impl Desk {
+impl Bench {
     fn new() -> Self {
-        let desk = Self(TempDir::new().unwrap());
-        desk.put("scene.pbrt", SCENE);
-        desk
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        std::fs::write(self.0.path().join(name), text).unwrap();
-    }
-
-    fn read(&self, name: &str) -> Vec<u8> {
-        std::fs::read(self.0.path().join(name)).unwrap()
+        Self(Desk::new(SCENE))
     }
 
     /// Exit code, standard output and standard error.
     fn run(&self, arguments: &[&str], input: &str) -> (i32, String, String) {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_steradian"))
-            .current_dir(self.0.path())
-            .args(arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        // A program that refuses its arguments does not read.
-        let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-        let output = child.wait_with_output().unwrap();
-        let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
-        let (out, err) = (text(output.stdout), text(output.stderr));
-        assert!(!err.contains("panicked"), "{err}");
-        (output.status.code().unwrap(), out, err)
+        let said = self.0.run_with(arguments, input);
+        (said.code.unwrap(), said.out, said.err)
     }
 
     #[track_caller]
@@ -95,7 +72,7 @@ fn rows(out: &str) -> Vec<Vec<String>> {
 /// f = ρ/π, pdf = cosθi/π, s = cosθo/π.
 #[test]
 fn a_lambertian_surface_reads_what_lambert_says() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let out = desk.bsdf("paint", &["--wo", "30,0", "--wi", "60,180", "--wavelength", "400,700"]);
     let row = |lambda| ["30", "0", "60", "180", lambda, "0.159155", "0.159155", "0.275664", "0.5", "0"];
     assert_eq!(rows(&out), [row("400"), row("700")]);
@@ -114,7 +91,7 @@ fn a_lambertian_surface_reads_what_lambert_says() {
 /// R(0) = 0.04 for an index of 1.5; radiance that enters is seen divided by its square.
 #[test]
 fn smooth_glass_has_fresnels_albedo_and_two_discrete_directions() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let ask = ["--wo", "0,0", "--wi", "0,0", "--wavelength", "550"];
     let out = desk.bsdf("glass", &ask);
     assert_eq!(rows(&out)[0][5..], ["0", "0", "0", "0.04", "0.96"]);
@@ -130,7 +107,7 @@ fn smooth_glass_has_fresnels_albedo_and_two_discrete_directions() {
 
 #[test]
 fn json_carries_the_same_numbers_with_their_units() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let report = desk.json("paint", &["--wo", "30,0", "--wi", "60,180", "--wavelength", "450,550"]);
     for (quantity, unit) in [("f", "1/sr"), ("pdf", "1/sr"), ("s", "1/sr"), ("wavelength", "nm")] {
         assert_eq!(report["units"][quantity], unit);
@@ -153,7 +130,7 @@ fn json_carries_the_same_numbers_with_their_units() {
 
 #[test]
 fn estimates_say_so_with_their_uncertainty_and_are_repeatable() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let ask = ["--wo", "30,0", "--wi", "45,180", "--wavelength", "550", "--walks", "500"];
     let out = desk.bsdf("varnish", &ask);
     assert!(out.contains("# estimated: f and s are means of 500 random walks"), "{out}");
@@ -168,7 +145,7 @@ fn estimates_say_so_with_their_uncertainty_and_are_repeatable() {
 
 #[test]
 fn textures_are_read_where_asked() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let albedo = |uv| {
         let out = desk.bsdf("tiles", &["--wo", "0,0", "--wi", "0,0", "-l", "550", "--uv", uv]);
         assert!(out.contains("# textured: at u = "), "{out}");
@@ -179,16 +156,16 @@ fn textures_are_read_where_asked() {
 
 #[test]
 fn lists_of_directions_come_from_a_file_or_from_standard_input() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let list = "# wo, wi\n0 0 0 0\n30,0, 60,180\n";
-    desk.put("directions.txt", list);
+    desk.0.put("directions.txt", list);
     let ask = ["--directions", "directions.txt", "--wavelength", "550"];
     let out = desk.bsdf("paint", &ask);
     assert_eq!(rows(&out).iter().map(|r| r[0].as_str()).collect::<Vec<_>>(), ["0", "30"]);
     let arguments = ["bsdf", "scene.pbrt", "--material", "paint", "--directions", "-", "--wavelength", "550"];
     assert_eq!(desk.run(&arguments, list), (0, out, String::new()));
 
-    desk.put("directions.txt", "0 0 0 0\n0 0 oops 0\n");
+    desk.0.put("directions.txt", "0 0 0 0\n0 0 oops 0\n");
     let ask = ["bsdf", "scene.pbrt", "--material", "paint", "--directions"];
     let with = |file| [&ask[..], &[file]].concat();
     desk.fails(&with("directions.txt"), "error: directions.txt:2:5: expected a number, found \"oops\"");
@@ -199,7 +176,7 @@ fn lists_of_directions_come_from_a_file_or_from_standard_input() {
 
 #[test]
 fn what_cannot_be_asked_is_said_with_what_can() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let names = r#"the scene's materials: "diffuse#0" "paint" "tiles" "glass" "gold" "varnish" "both""#;
     let directions = ["--wo", "0,0", "--wi", "0,0"];
     let ask = |more: &[&'static str]| [&["bsdf", "scene.pbrt"][..], more, &directions].concat();
@@ -235,11 +212,11 @@ fn decode(bytes: &[u8]) -> (u32, u32, Vec<u8>) {
 
 #[test]
 fn plots_are_well_formed_and_name_their_quantities() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let arguments = ["plot", "scene.pbrt", "--material", "gold", "-o", "gold.svg", "-o", "gold.png"];
     let (code, out, err) = desk.run(&arguments, "");
     assert_eq!((code, out.as_str(), err.trim_end()), (0, "", "material \"gold\": gold.svg, gold.png"));
-    let text = String::from_utf8(desk.read("gold.svg")).unwrap();
+    let text = String::from_utf8(desk.0.read("gold.svg")).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
     let root = document.root_element();
     assert_eq!(root.tag_name().name(), "svg");
@@ -250,19 +227,18 @@ fn plots_are_well_formed_and_name_their_quantities() {
         assert!(has(wanted), "{wanted} in {texts:?}");
     }
     let size = |name: &str| root.attribute(name).unwrap().parse::<u32>().unwrap();
-    let (width, height, pixels) = decode(&desk.read("gold.png"));
+    let (width, height, pixels) = decode(&desk.0.read("gold.png"));
     assert_eq!((width, height), (2 * size("width"), 2 * size("height")));
     let dark = pixels.chunks_exact(3).filter(|p| p.iter().all(|c| *c < 100)).count();
     let white = pixels.chunks_exact(3).filter(|p| p.iter().all(|c| *c == 255)).count();
     assert!(dark > 2000 && white > pixels.len() / 3 / 2, "{dark} {white}");
     // Partial files do not stay behind.
-    let names = std::fs::read_dir(desk.0.path()).unwrap().map(|e| e.unwrap().file_name());
-    assert_eq!(names.filter(|n| n.to_string_lossy().contains(".part")).count(), 0);
+    assert!(desk.0.files().iter().all(|n| !n.contains(".part")));
 }
 
 #[test]
 fn every_kind_of_plot_is_drawn_for_what_scatters_in_every_way() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     for (material, kind, wanted) in [
         ("glass", "lobes", "share of the power in discrete directions"),
         ("varnish", "lobes", "f |cos θo| [sr⁻¹]"),
@@ -275,7 +251,7 @@ fn every_kind_of_plot_is_drawn_for_what_scatters_in_every_way() {
             ["plot", "scene.pbrt", "--material", material, "--kind", kind, "--walks", "50", "-o", "a.svg"];
         let (code, _, err) = desk.run(&arguments, "");
         assert_eq!(code, 0, "{err}");
-        let text = String::from_utf8(desk.read("a.svg")).unwrap();
+        let text = String::from_utf8(desk.0.read("a.svg")).unwrap();
         roxmltree::Document::parse(&text).unwrap();
         assert!(text.contains(wanted), "{material} {kind}");
         assert!(!text.contains("NaN") && !text.contains("inf\""), "{material} {kind}");
@@ -292,14 +268,14 @@ fn every_kind_of_plot_is_drawn_for_what_scatters_in_every_way() {
 
 #[test]
 fn a_sphere_shows_the_scenes_own_material() {
-    let desk = Desk::new();
+    let desk = Bench::new();
     let mean = |material: &str| {
         let name = format!("{material}.png");
         let size = ["--resolution", "48x48", "--spp", "4", "--quiet"];
         let arguments = [&["plot", "scene.pbrt", "--material", material, "--sphere"][..], &size].concat();
         let (code, out, err) = desk.run(&arguments, "");
         assert_eq!((code, out.as_str(), err.as_str()), (0, "", ""));
-        let (width, height, pixels) = decode(&desk.read(&name));
+        let (width, height, pixels) = decode(&desk.0.read(&name));
         assert_eq!((width, height), (48, 48));
         // The middle of the picture is the sphere.
         let inside = (18..30).flat_map(|y| (18..30).map(move |x| 48 * y + x));

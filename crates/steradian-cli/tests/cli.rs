@@ -1,11 +1,12 @@
 //! The command as users meet it: exit codes, what is written where, and what is said.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "tests fail by panicking")]
 
+mod support;
+
 use std::io::Write as _;
-use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 use steradian::image::{Frame, read_frame_exr};
-use tempfile::TempDir;
+use support::desk::{Desk, Said};
 
 /// A scene of a few hundred samples.
 const SCENE: &str = r#"LookAt 0 0 -4  0 0 0  0 1 0
@@ -19,87 +20,18 @@ Material "diffuse" "rgb reflectance" [ 0.8 0.4 0.2 ]
 Shape "sphere"
 "#;
 
-/// A folder to work in, with the scene as `scene.pbrt`.
-struct Desk(TempDir);
-
-impl Desk {
-    fn new() -> Self {
-        let desk = Self(TempDir::new().unwrap());
-        desk.put("scene.pbrt", SCENE);
-        desk
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        std::fs::write(self.0.path().join(name), text).unwrap();
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_steradian"));
-        command.current_dir(self.0.path()).args(arguments).stdin(Stdio::null());
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Said {
-        Said::of(self.command(arguments).output().unwrap())
-    }
-
-    fn frame(&self, name: &str) -> Frame {
-        read_frame_exr(&std::fs::read(self.path(name)).unwrap()).unwrap()
-    }
-
-    /// The files in the folder, by name.
-    fn files(&self) -> Vec<String> {
-        let entries = std::fs::read_dir(self.0.path()).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-        names.sort();
-        names
-    }
+/// The default scene, ready to be run.
+fn new_desk() -> Desk {
+    Desk::new(SCENE)
 }
 
-/// What a run answered.
-#[derive(Debug)]
-struct Said {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-impl Said {
-    fn of(o: Output) -> Self {
-        let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
-        let said = Self { code: o.status.code(), out: text(o.stdout), err: text(o.stderr) };
-        assert!(!said.err.contains("panicked"), "{said:?}");
-        said
-    }
-
-    #[track_caller]
-    fn succeeded(self) -> Self {
-        assert_eq!(self.code, Some(0), "{self:?}");
-        self
-    }
-
-    /// Failed with exactly that on standard error.
-    #[track_caller]
-    fn failed(self, message: &str) {
-        assert_eq!((self.code, self.err.trim_end(), self.out.as_str()), (Some(1), message, ""));
-    }
-
-    /// Refused the arguments, with that text in the message.
-    #[track_caller]
-    fn refused(self, text: &str) {
-        assert_eq!(self.code, Some(2), "{self:?}");
-        assert!(self.err.contains(text) && self.out.is_empty(), "{self:?}");
-    }
+fn picture(desk: &Desk, name: &str) -> Frame {
+    read_frame_exr(&desk.read(name)).unwrap()
 }
 
 #[test]
 fn no_command_prints_the_help_with_examples() {
-    let desk = Desk::new();
+    let desk = new_desk();
     desk.run(&[]).refused("steradian render scene.pbrt -o a.exr -o a.png");
     for arguments in [&["--help"][..], &["help"], &["render", "--help"], &["help", "compare"]] {
         let said = desk.run(arguments).succeeded();
@@ -110,7 +42,7 @@ fn no_command_prints_the_help_with_examples() {
 
 #[test]
 fn wrong_arguments_are_refused_with_what_is_expected() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let render = |argument: &'static str, value: &'static str| {
         desk.run(&["render", "scene.pbrt", &format!("{argument}={value}")])
     };
@@ -130,11 +62,11 @@ fn wrong_arguments_are_refused_with_what_is_expected() {
 
 #[test]
 fn render_writes_every_output_and_says_so() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let said = desk.run(&["render", "scene.pbrt", "-o", "a.exr", "--output", "a.png"]).succeeded();
     assert_eq!(desk.files(), ["a.exr", "a.png", "scene.pbrt"]);
     assert!(said.out.is_empty() && said.err.contains("a.exr, a.png: 4 spp in 0:0"), "{said:?}");
-    let frame = desk.frame("a.exr");
+    let frame = picture(&desk, "a.exr");
     assert_eq!(frame.resolution(), [8, 6]);
     // The background is the light itself, the sphere is red.
     let [red, blue] = ["R", "B"].map(|c| frame.channel(c).unwrap().to_vec());
@@ -145,21 +77,21 @@ fn render_writes_every_output_and_says_so() {
 
 #[test]
 fn render_without_output_writes_the_file_that_the_scene_names() {
-    let desk = Desk::new();
+    let desk = new_desk();
     desk.run(&["render", "scene.pbrt"]).succeeded();
     assert_eq!(desk.files(), ["picture.exr", "scene.pbrt"]);
 }
 
 #[test]
 fn render_without_scene_shows_the_cornell_box() {
-    let desk = Desk::new();
+    let desk = new_desk();
     desk.run(&["render", "--resolution", "16x16", "--spp", "1"]).succeeded();
     assert_eq!(desk.files(), ["cornell-box.exr", "cornell-box.png", "scene.pbrt"]);
 }
 
 #[test]
 fn standard_input_and_several_files_make_one_scene() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let (header, world) = SCENE.split_at(SCENE.find("WorldBegin").unwrap());
     desk.put("header.pbrt", header);
     desk.put("world.pbrt", world);
@@ -173,14 +105,14 @@ fn standard_input_and_several_files_make_one_scene() {
         .unwrap();
     child.stdin.take().unwrap().write_all(SCENE.as_bytes()).unwrap();
     Said::of(child.wait_with_output().unwrap()).succeeded();
-    let red = |name: &str| desk.frame(name).channel("R").unwrap().to_vec();
+    let red = |name: &str| picture(&desk, name).channel("R").unwrap().to_vec();
     assert_eq!(red("whole.exr"), red("parts.exr"));
     assert_eq!(red("whole.exr"), red("piped.exr"));
 }
 
 #[test]
 fn an_error_on_standard_input_is_located_there() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let mut child =
         desk.command(&["check", "-"]).stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(b"WorldBegin\nShape \"spheer\"\n").unwrap();
@@ -191,16 +123,16 @@ fn an_error_on_standard_input_is_located_there() {
 
 #[test]
 fn resolution_and_crop_decide_which_pixels_are_rendered() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let crop = ["render", "scene.pbrt", "--resolution", "20x10", "--crop", "0.5,1,0.2,0.5", "-o", "a.exr"];
     desk.run(&crop).succeeded();
-    let frame = desk.frame("a.exr");
+    let frame = picture(&desk, "a.exr");
     let w = frame.window();
     assert_eq!(frame.resolution(), [20, 10]);
     assert_eq!((w.x, w.y, w.width, w.height), (10, 2, 10, 3));
     // The same pixels of the whole picture have the same values.
     desk.run(&["render", "scene.pbrt", "--resolution", "20x10", "-o", "b.exr"]).succeeded();
-    let whole = desk.frame("b.exr");
+    let whole = picture(&desk, "b.exr");
     let (part, whole) = (frame.channel("G").unwrap(), whole.channel("G").unwrap());
     for (i, &v) in part.iter().enumerate() {
         assert_eq!(v, whole[(i / 10 + 2) * 20 + i % 10 + 10]);
@@ -213,7 +145,7 @@ fn resolution_and_crop_decide_which_pixels_are_rendered() {
 
 #[test]
 fn the_seed_decides_the_picture() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let bytes = |seed: &str, threads: &str| {
         desk.run(&["render", "scene.pbrt", "--seed", seed, "--threads", threads, "-q", "-o", "a.exr"])
             .succeeded();
@@ -226,7 +158,7 @@ fn the_seed_decides_the_picture() {
 
 #[test]
 fn quiet_says_nothing_and_lines_replace_the_bar_where_no_terminal_looks() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let said = desk.run(&["render", "scene.pbrt", "--quiet"]).succeeded();
     assert_eq!((said.out.as_str(), said.err.as_str()), ("", ""));
     let said = desk.run(&["render", "scene.pbrt"]).succeeded();
@@ -240,16 +172,16 @@ fn quiet_says_nothing_and_lines_replace_the_bar_where_no_terminal_looks() {
 
 #[test]
 fn a_time_limit_ends_the_render_with_fewer_samples() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let arguments = ["render", "scene.pbrt", "--spp", "16000000", "--time", "0.2s", "-o", "a.exr"];
     desk.run(&arguments).succeeded();
-    let spp: u32 = desk.frame("a.exr").attribute("renderer.samplesPerPixel").unwrap().parse().unwrap();
+    let spp: u32 = picture(&desk, "a.exr").attribute("renderer.samplesPerPixel").unwrap().parse().unwrap();
     assert!((1..16_000_000).contains(&spp), "{spp}");
 }
 
 #[test]
 fn what_cannot_be_read_or_written_is_said_before_rendering() {
-    let desk = Desk::new();
+    let desk = new_desk();
     std::fs::create_dir(desk.path("folder.exr")).unwrap();
     let render = |more: &[&str]| desk.run(&[&["render", "scene.pbrt", "--spp", "16000000"], more].concat());
     desk.run(&["render", "gone.pbrt"]).failed("error: cannot read gone.pbrt: no such file");
@@ -274,7 +206,7 @@ fn what_cannot_be_read_or_written_is_said_before_rendering() {
 #[test]
 fn a_folder_without_permission_is_said_before_rendering() {
     use std::os::unix::fs::PermissionsExt as _;
-    let desk = Desk::new();
+    let desk = new_desk();
     let folder = desk.path("locked");
     std::fs::create_dir(&folder).unwrap();
     std::fs::set_permissions(&folder, std::fs::Permissions::from_mode(0o555)).unwrap();
@@ -288,7 +220,7 @@ fn a_folder_without_permission_is_said_before_rendering() {
 
 #[test]
 fn check_reports_all_problems_at_once() {
-    let desk = Desk::new();
+    let desk = new_desk();
     assert_eq!(desk.run(&["check", "scene.pbrt"]).succeeded().err, "0 errors, 0 warnings, 0 notices\n");
     desk.put("bad.pbrt", "Sampler \"haltn\"\nWorldBegin\nShape \"spheer\"\nScale 0 1 1\n");
     let said = desk.run(&["check", "bad.pbrt"]);
@@ -323,7 +255,7 @@ bad.pbrt:4:1: error: `Scale` by zero along an axis cannot be inverted
 
 #[test]
 fn info_describes_the_scene() {
-    let desk = Desk::new();
+    let desk = new_desk();
     let said = desk.run(&["info", "scene.pbrt"]).succeeded();
     for expected in ["8 × 6, 4 samples per pixel", "1 with 1 primitives", "lm", "bounds (world)"] {
         assert!(said.out.contains(expected), "{expected}: {said:?}");
@@ -333,7 +265,7 @@ fn info_describes_the_scene() {
 
 #[test]
 fn a_closed_pipe_is_no_reason_to_panic() {
-    let desk = Desk::new();
+    let desk = new_desk();
     for arguments in [&["info", "scene.pbrt"][..], &["--help"], &["check", "scene.pbrt"]] {
         let mut child =
             desk.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -345,7 +277,7 @@ fn a_closed_pipe_is_no_reason_to_panic() {
 
 #[test]
 fn compare_measures_differences_as_text_and_as_json() {
-    let desk = Desk::new();
+    let desk = new_desk();
     desk.run(&["render", "scene.pbrt", "-q", "-o", "a.exr"]).succeeded();
     desk.run(&["render", "scene.pbrt", "-q", "--seed", "5", "-o", "b.exr"]).succeeded();
     desk.run(&["render", "scene.pbrt", "-q", "--resolution", "4x4", "-o", "c.exr"]).succeeded();
@@ -366,7 +298,7 @@ fn compare_measures_differences_as_text_and_as_json() {
 /// Ctrl-C, as the terminal sends it.
 #[cfg(unix)]
 mod interrupt {
-    use super::{Desk, Stdio, read_frame_exr};
+    use super::{Desk, Stdio, new_desk, read_frame_exr};
     use std::io::{BufRead as _, BufReader};
     use std::process::{Child, Command};
     use std::time::{Duration, Instant};
@@ -401,7 +333,7 @@ mod interrupt {
 
     #[test]
     fn once_ends_the_pass_and_writes_the_picture() {
-        let desk = Desk::new();
+        let desk = new_desk();
         let (mut child, lines) = long_render(&desk);
         signal(&child);
         let said: Vec<String> = lines.collect();

@@ -1,0 +1,3 @@
+//! What tests of the program share.
+
+pub(crate) mod desk;
