@@ -1,9 +1,11 @@
-//! What every integrator promises: one unbiased estimate of the radiance along one camera ray.
+//! What every integrator promises: one unbiased estimate of the radiance along one camera ray; and what an integrator
+//! promises that instruments can use: one of the irradiance at a sensor.
 
-use crate::math::{Point, Ray, SurfacePoint};
+use crate::math::{BoundedPoint, Normal, Point, Ray, SurfacePoint};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 use crate::spectrum::{Sampled, Wavelengths};
+use crate::units::kind::Irradiance;
 use crate::units::{Radiance, Unitless};
 
 /// Estimates incident radiance at the sensor, B (2.24).
@@ -22,6 +24,42 @@ pub trait Integrator: Sync {
         tally: &mut Tally,
         first: Option<&mut FirstSurface>,
     ) -> Sampled<Radiance>;
+}
+
+/// An integrator whose answers are those of light transport, so that instruments can rely on it.
+pub trait Metering: Integrator {
+    /// One estimate of the irradiance, A (17), that a flat sensor with ideal cosine response receives from the hemisphere
+    /// around its normal, at the wavelengths `w`; a dispersive path drops the companions of `w`.
+    ///
+    /// A pure function of the scene, the sensor, and the sampler's pixel, index and seed.
+    fn irradiance(
+        &self,
+        scene: &Scene,
+        sensor: &SensorPoint,
+        w: &mut Wavelengths,
+        sampler: &mut Sampler,
+        tally: &mut Tally,
+    ) -> Arriving;
+}
+
+/// A point of a flat sensor, which is itself no obstacle for light.
+#[derive(Clone, Copy, Debug)]
+pub struct SensorPoint {
+    /// Where, in render space; surfaces within the bound around it are taken to lie behind it.
+    pub p: BoundedPoint,
+    /// Which way it faces, in render space.
+    pub n: Normal,
+    /// When [s].
+    pub time: f32,
+}
+
+/// Irradiance by the history of the light.
+#[derive(Clone, Copy, Debug)]
+pub struct Arriving {
+    /// From the lights, past whatever lets it pass straight.
+    pub direct: Sampled<Irradiance>,
+    /// Scattered, reflected or refracted at least once.
+    pub indirect: Sampled<Irradiance>,
 }
 
 /// What was done, counted per thread.

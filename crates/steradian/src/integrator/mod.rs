@@ -1,4 +1,4 @@
-//! Light transport: estimates of radiance along camera rays.
+//! Light transport: estimates of radiance along camera rays, and of irradiance at sensors.
 
 pub mod classic;
 pub mod contract;
@@ -7,5 +7,5 @@ pub mod path;
 mod vertex;
 
 pub use classic::ClassicShading;
-pub use contract::{FirstSurface, Integrator, Tally, VisibleSurface};
+pub use contract::{Arriving, FirstSurface, Integrator, Metering, SensorPoint, Tally, VisibleSurface};
 pub use path::PathTracer;

@@ -1,17 +1,20 @@
 //! Path tracing: the Neumann series of the directional rendering equation, B (2.26), B (2.28),
 //! with next-event estimation, multiple importance sampling and Russian roulette.
 
-use super::contract::{FirstSurface, Integrator, Tally, VisibleSurface};
+use super::contract::{Arriving, FirstSurface, Integrator, Metering, SensorPoint, Tally, VisibleSurface};
 use super::mis::power_heuristic;
 use super::vertex::{albedo, reference};
 use crate::bsdf::{Lobe, Mode, Side};
 use crate::material::SurfaceBsdf;
-use crate::math::{Dir, Ray};
+use crate::math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
+use crate::math::{Dir, Frame, Ray};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 use crate::shape::ReferencePoint;
 use crate::spectrum::{Sampled, Wavelengths};
+use crate::units::kind::Irradiance;
 use crate::units::{Density, PdfSolidAngle, Radiance, Unitless};
+use std::f32::consts::PI;
 
 /// The path tracer.
 #[derive(Clone, Copy, Debug)]
@@ -40,19 +43,92 @@ impl Arrival {
     }
 }
 
+/// Where a path puts the light that it finds.
+trait Collect: Default {
+    /// Light that was scattered `bounces` times before it came along the path's first ray.
+    fn collect(&mut self, bounces: u32, light: Sampled<Radiance>);
+}
+
+/// Cameras do not care what happened to light.
+impl Collect for Sampled<Radiance> {
+    #[inline]
+    fn collect(&mut self, _bounces: u32, light: Sampled<Radiance>) {
+        *self += light;
+    }
+}
+
+/// Radiance along a ray, by the history of the light.
+#[derive(Clone, Copy, Debug, Default)]
+struct ByHistory {
+    /// From where it was emitted.
+    direct: Sampled<Radiance>,
+    /// Scattered at least once.
+    indirect: Sampled<Radiance>,
+}
+
+impl Collect for ByHistory {
+    #[inline]
+    fn collect(&mut self, bounces: u32, light: Sampled<Radiance>) {
+        match bounces {
+            0 => self.direct += light,
+            _ => self.indirect += light,
+        }
+    }
+}
+
 impl Integrator for PathTracer {
     fn radiance(
         &self,
         scene: &Scene,
+        ray: Ray,
+        w: &mut Wavelengths,
+        sampler: &mut Sampler,
+        tally: &mut Tally,
+        first: Option<&mut FirstSurface>,
+    ) -> Sampled<Radiance> {
+        self.walk(scene, ray, Arrival::Only, w, sampler, tally, first)
+    }
+}
+
+/// A sensor measures what a white Lambertian surface in its place would send back: E = π L, A (24), A (30). Hence
+/// its light is found as that of any surface: one sample of a light, and one path in a cosine-distributed direction.
+impl Metering for PathTracer {
+    fn irradiance(
+        &self,
+        scene: &Scene,
+        sensor: &SensorPoint,
+        w: &mut Wavelengths,
+        sampler: &mut Sampler,
+        tally: &mut Tally,
+    ) -> Arriving {
+        let from = ReferencePoint { p: sensor.p, ng: Some(sensor.n), ns: Some(sensor.n), time: sensor.time };
+        let sampled = light_at_sensor(scene, &from, sensor, w, sampler, tally);
+        let local = cosine_hemisphere(sampler.next_2d());
+        let density = PdfSolidAngle(cosine_hemisphere_pdf(local.z));
+        let wi = Frame::from_z(sensor.n).to_world(local);
+        let ray = sensor.p.spawn(sensor.n, wi, sensor.time);
+        let arrival = Arrival::Scattered { from, density };
+        let found: ByHistory = self.walk(scene, ray, arrival, w, sampler, tally, None);
+        // cosθ over the density cosθ/π.
+        Arriving { direct: sampled + (found.direct * PI).cast(), indirect: (found.indirect * PI).cast() }
+    }
+}
+
+impl PathTracer {
+    /// The path that begins with `ray`, the way in which the ray was chosen being `arrival`.
+    #[inline]
+    fn walk<C: Collect>(
+        &self,
+        scene: &Scene,
         mut ray: Ray,
+        mut arrival: Arrival,
         w: &mut Wavelengths,
         sampler: &mut Sampler,
         tally: &mut Tally,
         mut first: Option<&mut FirstSurface>,
-    ) -> Sampled<Radiance> {
-        let mut radiance = Sampled::ZERO;
+    ) -> C {
+        let mut found = C::default();
         let mut throughput = Sampled::<Unitless>::ONE;
-        let mut arrival = Arrival::Only;
         // Product of (ηt/ηi)² over refractions: roulette compares power, not radiance.
         let mut eta_scale = 1.0_f32;
         let mut widened = false;
@@ -68,7 +144,7 @@ impl Integrator for PathTracer {
                     let escaped = scene.escaped(light, direction, w);
                     if !escaped.is_zero() {
                         let weight = arrival.weight(|_| scene.escape_density(light, direction));
-                        radiance += throughput * escaped * weight;
+                        found.collect(depth, throughput * escaped * weight);
                     }
                 }
                 break;
@@ -80,7 +156,7 @@ impl Integrator for PathTracer {
                 if !emitted.is_zero() {
                     let weight =
                         arrival.weight(|from| scene.emitter_density(emitter, from, direction, &hit.point));
-                    radiance += throughput * emitted * weight;
+                    found.collect(depth, throughput * emitted * weight);
                 }
             }
             let ends_here = depth >= self.max_depth && !scene.passes_straight(hit);
@@ -107,7 +183,7 @@ impl Integrator for PathTracer {
             let from = reference(&hit.point, bsdf);
             if bsdf.lobes().is_continuous() {
                 let direct = sample_direct(scene, &from, bsdf, wo, w, sampler, tally);
-                radiance += throughput * direct;
+                found.collect(depth, throughput * direct);
             }
             let Some(scattered) = bsdf.sample(wo, sampler.next_1d(), sampler.next_2d(), Mode::Radiance)
             else {
@@ -136,8 +212,37 @@ impl Integrator for PathTracer {
                 throughput = throughput / carried;
             }
         }
-        radiance
+        found
     }
+}
+
+/// One light sample, A (30): irradiance that a sensor receives from a light.
+fn light_at_sensor(
+    scene: &Scene,
+    from: &ReferencePoint,
+    sensor: &SensorPoint,
+    w: &Wavelengths,
+    sampler: &mut Sampler,
+    tally: &mut Tally,
+) -> Sampled<Irradiance> {
+    let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+    let Some(light) = scene.sample_light(from, u_light, u, w) else { return Sampled::ZERO };
+    let cos = sensor.n.dot(*light.wi);
+    if cos <= 0.0 || light.radiance.is_zero() {
+        return Sampled::ZERO;
+    }
+    tally.shadow_rays += 1;
+    if scene.is_occluded(from, &light.target, light.wi) {
+        return Sampled::ZERO;
+    }
+    let weight = match light.density {
+        Density::Delta => cos,
+        Density::SolidAngle(density) => {
+            let other = PdfSolidAngle(cosine_hemisphere_pdf(cos));
+            cos / density.0 * power_heuristic(density, other)
+        }
+    };
+    (light.radiance * weight).cast()
 }
 
 /// One light sample, A (31): radiance that reaches the point from a light and is scattered towards `wo`.

@@ -17,11 +17,11 @@ pub use setup::RenderError;
 use crate::camera::CameraSample;
 use crate::film::{Film, FilmSample, FilmTile, Recorded, SurfaceLayers};
 use crate::image::{Frame, Window};
-use crate::integrator::{ClassicShading, FirstSurface, Integrator, PathTracer, Tally, VisibleSurface};
+use crate::integrator::{FirstSurface, Integrator, Tally, VisibleSurface};
 use crate::math::{Normal, Transform, Vec2};
 use crate::sampler::Sampler;
 use crate::scene::desc::{FilmKind, GBufferSpace};
-use crate::scene::{IntegratorSettings, Jitter, RenderJob};
+use crate::scene::{Jitter, RenderJob};
 use crate::spectrum::Sampled;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -69,14 +69,7 @@ pub fn render(
         .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get))
         .max(1);
     let mut tiles: Vec<FilmTile> = film.bounds().tiles(TILE_SIDE).into_iter().map(|b| film.tile(b)).collect();
-    let integrator: Box<dyn Integrator + '_> = match &job.integrator {
-        IntegratorSettings::Path(p) => {
-            Box::new(PathTracer { max_depth: p.max_depth, regularize: p.regularize })
-        }
-        IntegratorSettings::Classic(c) => {
-            Box::new(ClassicShading { ambient: c.ambient.as_deref(), shadows: c.shadows })
-        }
-    };
+    let integrator = setup::integrator(job);
     let worker = Worker { job, film: &film, integrator: &*integrator, layer_from_render: layer_space(job) };
 
     let pixels = film.bounds().area() as u64;

@@ -1,10 +1,11 @@
-//! From a job's settings to a film, and from a film to a picture with its metadata.
+//! From a job's settings to a film and an integrator, and from a film to a picture with its metadata.
 
 use crate::film::{
     Film, FilmError, FilmKind, Filter, FilterError, FilterKind, PixelBounds, Sensor, SensorError,
     SensorSettings, SpectralBins,
 };
 use crate::image::ImageError;
+use crate::integrator::{ClassicShading, Integrator, Metering, PathTracer};
 use crate::math::Vec2;
 use crate::scene::{IntegratorSettings, RenderJob, desc};
 use crate::units::Kelvin;
@@ -28,6 +29,28 @@ pub enum RenderError {
     /// The picture could not be put together.
     #[error(transparent)]
     Frame(#[from] ImageError),
+}
+
+/// The integrator that a job asks for.
+pub fn integrator(job: &RenderJob) -> Box<dyn Integrator + '_> {
+    match &job.integrator {
+        IntegratorSettings::Path(p) => {
+            Box::new(PathTracer { max_depth: p.max_depth, regularize: p.regularize })
+        }
+        IntegratorSettings::Classic(c) => {
+            Box::new(ClassicShading { ambient: c.ambient.as_deref(), shadows: c.shadows })
+        }
+    }
+}
+
+/// An integrator for instruments: that of the job without its biases, with paths of at most `max_depth` bounces.
+///
+/// `None` when the job asks for shading that is not light transport.
+pub fn metering(job: &RenderJob, max_depth: u32) -> Option<Box<dyn Metering + '_>> {
+    match &job.integrator {
+        IntegratorSettings::Path(_) => Some(Box::new(PathTracer { max_depth, regularize: false })),
+        IntegratorSettings::Classic(_) => None,
+    }
 }
 
 /// The film that a job asks for.

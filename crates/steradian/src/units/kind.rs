@@ -1,6 +1,6 @@
 //! What a quantity measures, where in the spectrum it counts, and the units that follow.
 
-use super::quantity::Radiance;
+use super::quantity::{Quantity, Radiance};
 
 /// Radiant energy Q, A 12.2.1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,10 @@ pub struct Intensity;
 /// Irradiance E, A (17).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Irradiance;
+
+impl Quantity for Irradiance {
+    const UNIT: &'static str = "W·m⁻²·nm⁻¹";
+}
 
 /// Radiant exitance M, A (22).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
