@@ -152,15 +152,25 @@ pub(crate) struct Compare {
     pub(crate) json: bool,
 }
 
-#[derive(Args, Debug)]
-#[command(after_help = BSDF_NOTES)]
-pub(crate) struct Bsdf {
+/// A material of a scene, as a sample on the bench.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Sample {
     /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
     /// Name of the material [default: the only one that the scene states]
     #[arg(short, long, value_name = "NAME")]
     pub(crate) material: Option<String>,
+    /// Texture coordinates of the point that is looked at
+    #[arg(long, value_name = "U,V", default_value = "0.5,0.5", value_parser = parse_uv, allow_hyphen_values = true)]
+    pub(crate) uv: [f32; 2],
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = BSDF_NOTES)]
+pub(crate) struct Bsdf {
+    #[command(flatten)]
+    pub(crate) sample: Sample,
     /// Direction towards the sensor, in degrees; theta above 90 is below the surface
     #[arg(
         long,
@@ -195,9 +205,6 @@ pub(crate) struct Bsdf {
     /// What f carries: radiance is scaled by the squared index through a refraction, importance (power) is not
     #[arg(long, value_enum, default_value = "radiance")]
     pub(crate) mode: Transport,
-    /// Texture coordinates of the point that is looked at
-    #[arg(long, value_name = "U,V", default_value = "0.5,0.5", value_parser = parse_uv, allow_hyphen_values = true)]
-    pub(crate) uv: [f32; 2],
     /// Random walks behind each value of a material that is estimated
     #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u32).range(2..=100_000_000))]
     pub(crate) walks: u32,
@@ -216,12 +223,8 @@ Example:
 #[derive(Args, Debug)]
 #[command(after_help = PLOT_NOTES)]
 pub(crate) struct Plot {
-    /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
-    #[arg(value_name = "SCENE")]
-    pub(crate) scenes: Vec<PathBuf>,
-    /// Name of the material [default: the only one that the scene states]
-    #[arg(short, long, value_name = "NAME")]
-    pub(crate) material: Option<String>,
+    #[command(flatten)]
+    pub(crate) sample: Sample,
     /// File to write: .svg or .png, for a sphere .png, .exr or .pfm; may be repeated [default: the material's name]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
@@ -254,9 +257,6 @@ pub(crate) struct Plot {
     /// Scale of the lobes' radius: `log` shows four decades
     #[arg(long, value_enum, default_value = "linear")]
     pub(crate) scale: LobeScale,
-    /// Texture coordinates of the point that is looked at
-    #[arg(long, value_name = "U,V", default_value = "0.5,0.5", value_parser = parse_uv, allow_hyphen_values = true)]
-    pub(crate) uv: [f32; 2],
     /// Random walks behind each value of a material that is estimated
     #[arg(long, value_name = "N", default_value = "4000", value_parser = clap::value_parser!(u32).range(2..=100_000_000))]
     pub(crate) walks: u32,

@@ -14,12 +14,12 @@ use steradian::units::Estimate;
 
 pub(crate) fn run(arguments: &args::Bsdf) -> Result<(), Failure> {
     let stdin = Path::new("-");
-    if arguments.directions.as_deref() == Some(stdin) && arguments.scenes.iter().any(|s| s == stdin) {
+    if arguments.directions.as_deref() == Some(stdin) && arguments.sample.scenes.iter().any(|s| s == stdin) {
         return Err(Failure::Message("standard input holds either the scene or the directions".to_owned()));
     }
     let pairs = pairs(arguments)?;
-    let job = pick::materials(&arguments.scenes)?;
-    let subject = pick::subject(&job, arguments.material.as_deref(), arguments.uv)?;
+    let job = arguments.sample.job()?;
+    let subject = arguments.sample.subject(&job)?;
     pick::check_wavelengths(&subject, &arguments.wavelength)?;
     let probe = Probe::new(&subject, &arguments.wavelength).map_err(|e| e.to_string())?;
     let mode = match arguments.mode {
@@ -168,7 +168,7 @@ impl Table<'_> {
             self.mode_name()
         );
         if self.subject.is_textured() {
-            let [u, v] = self.arguments.uv;
+            let [u, v] = self.arguments.sample.uv;
             let _ = writeln!(out, "# textured: at u = {u}, v = {v}");
         }
         if estimated {
@@ -221,7 +221,7 @@ impl Table<'_> {
         json!({
             "material": self.subject.name(),
             "mode": self.mode_name(),
-            "uv": self.arguments.uv,
+            "uv": self.arguments.sample.uv,
             "estimated": self.probe.is_estimated(),
             "walks": self.probe.is_estimated().then_some(self.arguments.walks),
             "units": {

@@ -1,8 +1,8 @@
 //! The material that the user means, and the wavelengths for which it has data.
 
 use crate::Failure;
+use crate::args::Sample;
 use crate::load::{self, Loading, Verbosity};
-use std::path::PathBuf;
 use steradian::lab::Subject;
 use steradian::math::Vec2;
 use steradian::scene::{RenderJob, nearest};
@@ -10,9 +10,16 @@ use steradian::scene::{RenderJob, nearest};
 /// How many names a message lists.
 const SHOWN_NAMES: usize = 20;
 
-/// Reads the scene's materials and nothing else.
-pub(crate) fn materials(paths: &[PathBuf]) -> Result<RenderJob, Failure> {
-    compile(load::read(paths)?)
+impl Sample {
+    /// Reads the scene's materials and nothing else.
+    pub(crate) fn job(&self) -> Result<RenderJob, Failure> {
+        compile(load::read(&self.scenes)?)
+    }
+
+    /// The material that is meant, in what [`Sample::job`] read.
+    pub(crate) fn subject<'j>(&self, job: &'j RenderJob) -> Result<Subject<'j>, String> {
+        subject(job, self.material.as_deref(), self.uv)
+    }
 }
 
 /// Compiles the materials alone.
@@ -22,11 +29,7 @@ pub(crate) fn compile(loading: Loading) -> Result<RenderJob, Failure> {
 }
 
 /// The material of that name, or the only one that the scene states, at a point of its textures.
-pub(crate) fn subject<'j>(
-    job: &'j RenderJob,
-    name: Option<&str>,
-    [u, v]: [f32; 2],
-) -> Result<Subject<'j>, String> {
+fn subject<'j>(job: &'j RenderJob, name: Option<&str>, [u, v]: [f32; 2]) -> Result<Subject<'j>, String> {
     let found = match name {
         Some(name) => Subject::find(job, name).map_err(|e| {
             let hint = nearest(name, e.known.iter().map(String::as_str));

@@ -14,10 +14,10 @@ use steradian::render::{CancelToken, RenderOptions};
 use steradian::scene::{Diagnostics, Disk, Overrides, RenderJob, SceneDesc};
 
 pub(crate) fn run(arguments: &args::Plot) -> Result<(), Failure> {
-    let loading = load::read(&arguments.scenes)?;
+    let loading = load::read(&arguments.sample.scenes)?;
     let scene = loading.imported.scene.clone();
     let job = pick::compile(loading)?;
-    let subject = pick::subject(&job, arguments.material.as_deref(), arguments.uv)?;
+    let subject = arguments.sample.subject(&job)?;
     pick::check_wavelengths(&subject, &arguments.wavelength)?;
     let written = match scene {
         Some(scene) if arguments.sphere => sphere(arguments, scene, subject.name())?,
