@@ -1,5 +1,6 @@
 //! The light laboratory: the scene's own materials and lights under virtual instruments.
 
+pub mod meters;
 pub mod plot;
 pub mod portrait;
 pub mod precision;
