@@ -75,7 +75,6 @@ fn describe(job: &RenderJob) -> String {
     let area = job.meters_per_unit * job.meters_per_unit;
     for (i, light) in scene.lights().iter().enumerate() {
         let p = light.power(radius);
-        let area = if light.scales_with_area() { area } else { 1.0 };
         let (watts, lumens) = (p.watts * area, p.lumens * area);
         total = (total.0 + watts, total.1 + lumens);
         if i < SHOWN_LIGHTS {

@@ -46,7 +46,7 @@ pub struct DiffuseAreaLight {
 }
 
 impl DiffuseAreaLight {
-    /// An emitting shape. A stated total is the luminous power [lm] of the whole shape, both sides together.
+    /// An emitting shape. A stated total is the flux of the whole shape, both sides together, or its mean luminance.
     pub fn new(
         id: ShapeId,
         shape: &Shape,
@@ -59,8 +59,9 @@ impl DiffuseAreaLight {
         let surface = match radiance {
             AreaRadiance::Uniform(spectrum) => Surface::Uniform(Emission::new(spectrum, stated, geometry)?),
             AreaRadiance::Picture(mut picture) => {
-                let lumens = picture.luminance(picture.mean(|_| 1.0)) * geometry;
-                picture.set_factor(stated.multiplier(picture.white_integral(), lumens)?);
+                let mean = picture.mean(|_| 1.0);
+                let yields = picture.yields(mean * geometry, picture.luminance(mean));
+                picture.set_factor(stated.multiplier(&yields)?);
                 Surface::Picture(picture)
             }
         };

@@ -88,4 +88,7 @@ pub enum LightError {
     /// An amount in lumen or lux of a black picture.
     #[error("the picture is black, so it cannot be scaled to an amount")]
     Black,
+    /// An amount in watts of a spectrum without power in the range that watts are counted in.
+    #[error("the spectrum has no power within 360–830 nm, so its amount cannot be given in watts")]
+    NoRadiantPower,
 }

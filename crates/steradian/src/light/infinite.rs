@@ -21,8 +21,8 @@ pub struct DistantLight {
 }
 
 impl DistantLight {
-    /// Light that travels from `from` towards `to` (light space). A stated total is the illuminance [lx] of a plane
-    /// perpendicular to it.
+    /// Light that travels from `from` towards `to` (light space). A stated total is that of a plane perpendicular to
+    /// it.
     pub fn new(
         render_from_light: Transform,
         from: Point,
@@ -59,7 +59,7 @@ pub struct UniformInfiniteLight {
 }
 
 impl UniformInfiniteLight {
-    /// A stated total is the illuminance [lx] of a plane, π times the luminance.
+    /// A stated total is that of a plane, π times the radiance, or the luminance.
     pub fn new(radiance: Spectrum, stated: &Stated) -> Result<Self, LightError> {
         Ok(Self { radiance: Emission::new(radiance, stated, PI)? })
     }
@@ -104,7 +104,7 @@ pub struct ImageInfiniteLight {
 }
 
 impl ImageInfiniteLight {
-    /// A stated total is the illuminance [lx] of a plane facing +z of light space, by the upper half of the picture.
+    /// A stated total is that of a plane facing +z of light space, by the upper half of the picture.
     pub fn new(
         render_from_light: Transform,
         mut picture: EmissionPicture,
@@ -116,9 +116,9 @@ impl ImageInfiniteLight {
         }
         // Every texel subtends 4π over their number.
         let horizontal = picture.mean(|st| equal_area_square_to_sphere(st).z.max(0.0)) * (4.0 * PI);
-        let lux = picture.luminance(horizontal);
-        picture.set_factor(stated.multiplier(picture.white_integral(), lux)?);
         let mean = picture.mean(|_| 1.0);
+        let yields = picture.yields(horizontal, picture.luminance(mean));
+        picture.set_factor(stated.multiplier(&yields)?);
         let average = mean.element_sum() / 3.0;
         let mut importance = Vec::with_capacity(width as usize * height as usize);
         for y in 0..height {

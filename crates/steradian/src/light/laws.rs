@@ -271,7 +271,7 @@ fn scale_one_is_one_candela_per_square_metre_whatever_the_spectrum() {
 #[test]
 fn a_stated_power_or_illuminance_is_what_the_light_gives() {
     let white = || named("stdillum-D65").unwrap();
-    let stated = Stated { total: Some(800.0), ..Stated::default() };
+    let stated = Stated { total: Some(Total::Luminous(800.0)), ..Stated::default() };
     let t = Transform::IDENTITY;
     let (here, there) = (Point::ORIGIN, Point::new(0.0, 0.0, 1.0));
     let chart = Image::from_f32(2, 2, Layout::Gray, vec![0.5, 1.0, 2.0, 0.0]).unwrap();
@@ -314,6 +314,56 @@ fn a_stated_power_or_illuminance_is_what_the_light_gives() {
     let map = ImageInfiniteLight::new(t, picture([16, 16], sky), &stated).unwrap();
     let found = lux(&Light::ImageInfinite(Box::new(map)), 64);
     assert!((found / 800.0 - 1.0).abs() < 0.02, "{found}");
+}
+
+#[test]
+fn a_total_in_watts_candela_or_nits_is_what_the_light_gives() {
+    let stated = |total| Stated { total: Some(total), scale: 2.0, ..Stated::default() };
+    let t = Transform::IDENTITY;
+    let (here, there) = (Point::ORIGIN, Point::new(0.0, 0.0, 1.0));
+    let shape = square();
+    let chart = || Image::from_f32(2, 2, Layout::Gray, vec![0.5, 1.0, 4.0, 0.0]).unwrap();
+    // Half of the slide at 3 times white, the other half black.
+    let slide = || picture([16, 16], |x, _| if x < 8 { [3.0; 3] } else { [0.0; 3] });
+    for spectrum in [named("stdillum-D65").unwrap(), named("stdillum-A").unwrap()] {
+        let all = |total| {
+            let (s, stated) = (|| spectrum.clone(), stated(total));
+            [
+                Light::Point(PointLight::new(t, here, s(), &stated).unwrap()),
+                Light::Spot(SpotLight::new(t, here, there, 30.0, 5.0, s(), &stated).unwrap()),
+                Light::Goniometric(Box::new(GoniometricLight::new(t, chart(), s(), &stated).unwrap())),
+                Light::Projection(Box::new(ProjectionLight::new(t, 50.0, slide(), &stated).unwrap())),
+                area_light(&shape, s(), Sides::Both, &stated),
+                Light::Distant(DistantLight::new(t, there, here, s(), &stated).unwrap()),
+                Light::UniformInfinite(UniformInfiniteLight::new(s(), &stated).unwrap()),
+                Light::ImageInfinite(Box::new(
+                    ImageInfiniteLight::new(t, picture([8, 8], |_, _| [2.0; 3]), &stated).unwrap(),
+                )),
+            ]
+        };
+        // Of lights at infinity, a sphere of radius 1 receives π E of parallel light and 4π E of a uniform sky.
+        let received = [1.0, 1.0, 1.0, 1.0, 1.0, PI, 4.0 * PI, 4.0 * PI];
+        for (light, factor) in all(Total::Radiant(7.0)).iter().zip(received) {
+            let watts = light.power(1.0).watts;
+            assert!((watts / (14.0 * factor) - 1.0).abs() < 1e-4, "{light:?}: {watts}");
+        }
+        // Luminous power of a largest intensity, or a luminance, of 2 · 7.
+        let spot = TAU * (1.0 - 0.5 * (25_f32.to_radians().cos() + 30_f32.to_radians().cos()));
+        let half = 25_f32.to_radians().tan();
+        // Half of a square pyramid: 4 asin(sin²) of its half angle at the middle of the sides.
+        let slide = 2.0 * (half * half / (1.0 + half * half)).asin();
+        let sky = 4.0 * PI * PI;
+        let geometry = [4.0 * PI, spot, 4.0 * PI * 5.5 / 16.0, slide, 2.0 * PI, PI, sky, sky];
+        for (light, factor) in all(Total::Directional(7.0)).iter().zip(geometry) {
+            let lumens = light.power(1.0).lumens;
+            // The projector's flux is a sum over its texels.
+            let tolerance = if light.kind() == "projection" { 2e-3 } else { 1e-4 };
+            assert!((lumens / (14.0 * factor) - 1.0).abs() < tolerance, "{light:?}: {lumens} {factor}");
+        }
+    }
+    let infrared = Spectrum::Tabulated(Tabulated::new(&[(900.0, 1.0), (1000.0, 1.0)]).unwrap());
+    let dark = PointLight::new(t, here, infrared, &stated(Total::Radiant(1.0)));
+    assert_eq!(dark.unwrap_err(), LightError::NoRadiantPower);
 }
 
 #[test]

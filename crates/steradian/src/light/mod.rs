@@ -14,7 +14,7 @@ mod tree;
 pub use area::{AreaRadiance, DiffuseAreaLight, Sides};
 pub use contract::{Emitter, LightError, LightId, LightPower, LightSample, LightTarget};
 pub use infinite::{DistantLight, ImageInfiniteLight, UniformInfiniteLight};
-pub use normalise::{Amount, Emission, Stated};
+pub use normalise::{Amount, Emission, Stated, Total};
 pub use octahedral::latlong_to_octahedral;
 pub use picture::EmissionPicture;
 pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
@@ -138,7 +138,8 @@ impl Light {
         }
     }
 
-    /// Total output; of lights at infinity what enters a sphere of `scene_radius` [scene units] around the scene.
+    /// Total output, of lights at infinity what enters a sphere of `scene_radius` [scene units] around the scene; in the
+    /// units of [`LightPower`] where a scene unit is a metre, else to be multiplied by the square of its length.
     pub fn power(&self, scene_radius: f32) -> LightPower {
         match self {
             Self::Point(l) => l.power(),
@@ -162,16 +163,6 @@ impl Light {
             Self::Projection(_) => "projection",
             Self::UniformInfinite(_) | Self::ImageInfinite(_) => "infinite",
             Self::DiffuseArea(_) => "diffuse area",
-        }
-    }
-
-    /// Whether the light's power grows with an area of the scene, that is with the square of the scene's unit of length.
-    pub fn scales_with_area(&self) -> bool {
-        match self {
-            Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => {
-                true
-            }
-            Self::Point(_) | Self::Spot(_) | Self::Goniometric(_) | Self::Projection(_) => false,
         }
     }
 

@@ -1,5 +1,6 @@
 //! Pictures that emit: RGB texels as filters of the colour space's white.
 
+use super::normalise::Yield;
 use crate::color::{ColorSpace, Factored, Rgb, UpsamplingTable};
 use crate::image::{Image, Wrap};
 use crate::math::{Vec2, Vec3};
@@ -41,9 +42,24 @@ impl EmissionPicture {
         &self.image
     }
 
-    /// ∫ ȳ of the white [nm].
-    pub(super) fn white_integral(&self) -> f32 {
-        self.white_integral
+    /// What a light gives that makes the total of a weighted sum `whole` of texels, and `directional` candela or cd/m²
+    /// per 1 cd/m² of white, while the picture is unscaled.
+    pub(super) fn yields(&self, whole: Vec3, directional: f32) -> Yield {
+        let unit = crate::units::LUMENS_PER_WATT * self.white_integral;
+        let total = Self { factor: 1.0, ..self.clone() }.integrals(whole);
+        Yield {
+            unit,
+            luminous: unit * self.luminance(whole),
+            radiant: total.watts,
+            directional: unit * directional,
+        }
+    }
+
+    /// The largest relative luminance of a texel.
+    pub(super) fn peak(&self) -> f32 {
+        let (width, height) = (self.image.width(), self.image.height());
+        let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        texels.map(|(x, y)| self.luminance(self.image.rgb(x, y).0.max(Vec3::ZERO))).fold(0.0, f32::max)
     }
 
     pub(super) fn set_factor(&mut self, factor: f32) {

@@ -74,7 +74,7 @@ pub struct PointLight {
 }
 
 impl PointLight {
-    /// A light at `from` in light space. A stated total is in lumen.
+    /// A light at `from` in light space. A stated total is a flux or the largest intensity.
     pub fn new(
         render_from_light: Transform,
         from: Point,
@@ -115,7 +115,7 @@ pub struct SpotLight {
 
 impl SpotLight {
     /// A light at `from` shining towards `to` (light space) in a cone of half angle `cone` degrees, of which the outer
-    /// `delta` degrees fall off by a smoothstep of the cosine. A stated total is in lumen.
+    /// `delta` degrees fall off by a smoothstep of the cosine. A stated total is a flux or the largest intensity.
     ///
     /// As in pbrt-v4, a falloff wider than the cone begins at the mirrored angle `delta` − `cone`: the cosine is even.
     /// One wider than twice the cone would begin outside it; such a cone is full up to its edge.
@@ -177,7 +177,7 @@ pub struct GoniometricLight {
 
 impl GoniometricLight {
     /// A light at the origin of light space, y up; `distribution` is an equal-area octahedral square of factors, of
-    /// which the channels are averaged. A stated total is in lumen.
+    /// which the channels are averaged. A stated total is a flux or the largest intensity.
     pub fn new(
         render_from_light: Transform,
         distribution: impl Into<Arc<Image>>,
@@ -189,15 +189,17 @@ impl GoniometricLight {
         if width != height {
             return Err(LightError::NotSquare(width, height));
         }
-        let mut sum = 0.0_f64;
+        let (mut sum, mut peak) = (0.0_f64, 0.0_f32);
         for y in 0..height {
             for x in 0..width {
-                sum += f64::from(mean(distribution.rgb(x, y).0));
+                let factor = mean(distribution.rgb(x, y).0);
+                sum += f64::from(factor);
+                peak = peak.max(factor);
             }
         }
         let solid_angle = (sum / (f64::from(width) * f64::from(height))) as f32 * 4.0 * PI;
         let stand = Stand::new(render_from_light * swap_yz().ok_or(LightError::Singular)?);
-        let intensity = Emission::new(intensity, stated, solid_angle)?;
+        let intensity = Emission::with_peak(intensity, stated, solid_angle, peak)?;
         Ok(Self { stand, intensity, distribution, solid_angle })
     }
 
@@ -245,7 +247,7 @@ pub struct ProjectionLight {
 
 impl ProjectionLight {
     /// A projector at the origin of light space with `fov` degrees across the slide's shorter side, its top
-    /// towards +y. A stated total is in lumen.
+    /// towards +y. A stated total is a flux or the largest intensity.
     pub fn new(
         render_from_light: Transform,
         fov: f32,
@@ -259,8 +261,8 @@ impl ProjectionLight {
         let shape = if aspect > 1.0 { Vec2::new(aspect, 1.0) } else { Vec2::new(1.0, 1.0 / aspect) };
         let half = shape * (fov.to_radians() * 0.5).tan();
         let mut light = Self { stand: Stand::new(render_from_light), slide: slide.clone(), half };
-        let lumens = light.slide.luminance(light.flux());
-        slide.set_factor(stated.multiplier(slide.white_integral(), lumens)?);
+        let yields = slide.yields(light.flux(), slide.peak());
+        slide.set_factor(stated.multiplier(&yields)?);
         light.slide = slide;
         Ok(light)
     }

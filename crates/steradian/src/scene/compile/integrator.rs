@@ -22,9 +22,10 @@ pub(super) fn surroundings(desc: &IntegratorDesc) -> Option<LightDesc> {
     let IntegratorKind::Classic(classic) = &desc.kind else { return None };
     let ambient = classic.ambient.as_ref()?;
     Some(LightDesc {
-        kind: LightKind::UniformInfinite { radiance: ambient.radiance.clone(), illuminance: None },
+        kind: LightKind::UniformInfinite { radiance: ambient.radiance.clone() },
         scale: ambient.scale,
         normalization: ambient.normalization,
+        total: None,
         world_from_light: AnimatedTransform::fixed(Transform::IDENTITY),
         medium: None,
         span: ambient.radiance.span,

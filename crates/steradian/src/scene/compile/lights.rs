@@ -8,7 +8,7 @@ use super::view::rebase;
 use crate::image::Image;
 use crate::light::{
     Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight,
-    ImageInfiniteLight, Light, LightError, PointLight, ProjectionLight, Sides, SpotLight, Stated,
+    ImageInfiniteLight, Light, LightError, PointLight, ProjectionLight, Sides, SpotLight, Stated, Total,
     UniformInfiniteLight, latlong_to_octahedral,
 };
 use crate::math::Transform;
@@ -25,6 +25,8 @@ use std::sync::Arc;
 pub(super) struct LightCompiler<'a, 'b> {
     pub(super) textures: &'b mut TextureCompiler<'a>,
     pub(super) render_from_world: Transform,
+    /// Length of a scene unit [m].
+    pub(super) meters_per_unit: f32,
 }
 
 impl LightCompiler<'_, '_> {
@@ -36,7 +38,12 @@ impl LightCompiler<'_, '_> {
         shape: &Shape,
     ) -> Option<Light> {
         let desc: &AreaLightDesc = scene.area_lights.get(emitting.light.index())?;
-        let stated = stated(desc.scale, desc.normalization, desc.power);
+        let mut stated = stated(desc.scale, desc.normalization, desc.total);
+        stated.total = stated.total.map(|total| match total {
+            // Areas are in scene units.
+            Total::Luminous(_) | Total::Radiant(_) => total.scaled(self.per_square_metre()),
+            Total::Directional(_) => total,
+        });
         let picture = match (&emitting.picture, &desc.radiance) {
             (Some(file), _) | (None, desc::AreaRadiance::Image(file)) => Some(file),
             (None, desc::AreaRadiance::Uniform(_)) => None,
@@ -46,7 +53,7 @@ impl LightCompiler<'_, '_> {
             (None, desc::AreaRadiance::Uniform(s)) => AreaRadiance::Uniform(self.spectrum(s)),
             (None, desc::AreaRadiance::Image(_)) => return None,
         };
-        if desc.power.is_some() && shape.prim_count() > 1 {
+        if matches!(desc.total, Some(Total::Luminous(_))) && shape.prim_count() > 1 {
             self.textures.diagnostics.notice(
                 desc.span,
                 format!(
@@ -69,36 +76,40 @@ impl LightCompiler<'_, '_> {
                 .warning(desc.span, "lights do not move: this one stays where the shutter opens");
         }
         let t = *placement.start();
-        let stated = |total| stated(desc.scale, desc.normalization, total);
+        // Intensity over a squared distance in scene units.
+        let scale = match desc.kind.is_at_infinity() {
+            true => desc.scale,
+            false => desc.scale * self.per_square_metre(),
+        };
+        let stated = stated(scale, desc.normalization, desc.total);
         let light = match &desc.kind {
-            LightKind::Point { intensity, from, power } => {
-                PointLight::new(t, *from, self.spectrum(intensity), &stated(*power)).map(Light::Point)
+            LightKind::Point { intensity, from } => {
+                PointLight::new(t, *from, self.spectrum(intensity), &stated).map(Light::Point)
             }
-            LightKind::Spot { intensity, from, to, cone_angle, cone_delta_angle, power } => {
+            LightKind::Spot { intensity, from, to, cone_angle, cone_delta_angle } => {
                 let intensity = self.spectrum(intensity);
-                SpotLight::new(t, *from, *to, *cone_angle, *cone_delta_angle, intensity, &stated(*power))
+                SpotLight::new(t, *from, *to, *cone_angle, *cone_delta_angle, intensity, &stated)
                     .map(Light::Spot)
             }
-            LightKind::Goniometric { intensity, file, power } => {
+            LightKind::Goniometric { intensity, file } => {
                 let picture = self.square_picture(file, "y")?;
                 let intensity = self.spectrum(intensity);
-                GoniometricLight::new(t, picture, intensity, &stated(*power))
-                    .map(|l| Light::Goniometric(Box::new(l)))
+                GoniometricLight::new(t, picture, intensity, &stated).map(|l| Light::Goniometric(Box::new(l)))
             }
-            LightKind::Projection { file, fov, power } => {
+            LightKind::Projection { file, fov } => {
                 let slide = self.emission_picture(file)?;
-                ProjectionLight::new(t, *fov, slide, &stated(*power)).map(|l| Light::Projection(Box::new(l)))
+                ProjectionLight::new(t, *fov, slide, &stated).map(|l| Light::Projection(Box::new(l)))
             }
-            LightKind::Distant { irradiance, from, to, illuminance } => {
+            LightKind::Distant { irradiance, from, to } => {
                 let irradiance = self.spectrum(irradiance);
-                DistantLight::new(t, *from, *to, irradiance, &stated(*illuminance)).map(Light::Distant)
+                DistantLight::new(t, *from, *to, irradiance, &stated).map(Light::Distant)
             }
-            LightKind::UniformInfinite { radiance, illuminance } => {
+            LightKind::UniformInfinite { radiance } => {
                 let radiance = self.spectrum(radiance);
-                UniformInfiniteLight::new(radiance, &stated(*illuminance)).map(Light::UniformInfinite)
+                UniformInfiniteLight::new(radiance, &stated).map(Light::UniformInfinite)
             }
-            LightKind::ImageInfinite { file, illuminance } => {
-                if illuminance.is_some() {
+            LightKind::ImageInfinite { file } => {
+                if matches!(desc.total, Some(Total::Luminous(_))) {
                     self.textures.diagnostics.notice(
                         desc.span,
                         "the map gives the stated illuminance; pbrt-v4 would make it twice as bright",
@@ -106,8 +117,7 @@ impl LightCompiler<'_, '_> {
                 }
                 let map = self.square_picture(file, "z")?;
                 let picture = self.emission(map);
-                ImageInfiniteLight::new(t, picture, &stated(*illuminance))
-                    .map(|l| Light::ImageInfinite(Box::new(l)))
+                ImageInfiniteLight::new(t, picture, &stated).map(|l| Light::ImageInfinite(Box::new(l)))
             }
         };
         let place = match (&light, &desc.kind) {
@@ -120,6 +130,11 @@ impl LightCompiler<'_, '_> {
             _ => desc.span,
         };
         self.report(light, place)
+    }
+
+    /// How many square scene units a square metre has, of which amounts per unit are made.
+    fn per_square_metre(&self) -> f32 {
+        (self.meters_per_unit * self.meters_per_unit).recip()
     }
 
     fn report(&mut self, light: Result<Light, LightError>, span: Span) -> Option<Light> {
@@ -172,7 +187,7 @@ impl LightCompiler<'_, '_> {
     }
 }
 
-fn stated(scale: f32, normalization: Normalization, total: Option<f32>) -> Stated {
+fn stated(scale: f32, normalization: Normalization, total: Option<Total>) -> Stated {
     let amount = match normalization {
         Normalization::Photometric => Amount::Photometric,
         Normalization::Absolute => Amount::Absolute,

@@ -61,7 +61,11 @@ pub fn compile_with_tables(
     .compile(geometry);
 
     let mut lights: Vec<Light> = Vec::new();
-    let mut compiler = LightCompiler { textures: &mut textures, render_from_world };
+    let mut compiler = LightCompiler {
+        textures: &mut textures,
+        render_from_world,
+        meters_per_unit: desc.options.meters_per_unit,
+    };
     for emitting in &set.emitters {
         let index = emitting.shape.0 as usize;
         if let Some(light) = compiler.area(desc, emitting, &set.shapes[index]) {

@@ -14,8 +14,13 @@ struct Compiled {
 }
 
 fn compile(world: &str, files: &dyn FileSystem) -> Compiled {
-    let text =
-        format!("Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n{world}\n");
+    compile_with_header("", world, files)
+}
+
+fn compile_with_header(header: &str, world: &str, files: &dyn FileSystem) -> Compiled {
+    let text = format!(
+        "{header} Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n{world}\n"
+    );
     let input = Input::Text { name: "test.pbrt", bytes: text.as_bytes(), base: Path::new("") };
     let Imported { scene, sources, mut diagnostics } = import(&[input], files);
     let job = scene.and_then(|d| super::compile(d, files, &mut diagnostics));
@@ -172,4 +177,29 @@ fn legacy_shading_says_what_it_leaves_out() {
     // Surroundings are light.
     let ambient = "classic\" \"spectrum ambient\" [ 400 1 700 1 ] #";
     assert_eq!(shown(ambient, "Shape \"sphere\""), "");
+}
+
+#[test]
+fn amounts_mean_the_same_in_scenes_of_any_unit() {
+    let lumens = |world: &str| {
+        let header = "Option \"float metersperunit\" 0.01";
+        let c = compile_with_header(header, world, &MemoryFiles::new());
+        let job = c.job.unwrap_or_else(|| panic!("{}", c.shown));
+        job.scene.lights()[0].power(1.0).lumens * job.meters_per_unit * job.meters_per_unit
+    };
+    let pi = std::f32::consts::PI;
+    let square = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 100 0 0 100 100 0 0 100 0] \"integer indices\" [0 1 2 0 2 3]";
+    let area = |amount: &str| format!("AreaLightSource \"diffuse\" {amount} {square}");
+    let cases = [
+        ("LightSource \"point\" \"float intensity\" 50".to_owned(), 200.0 * pi),
+        ("LightSource \"point\" \"float scale\" 50".to_owned(), 200.0 * pi),
+        ("LightSource \"point\" \"float power\" 800".to_owned(), 800.0),
+        (area("\"float power\" 800"), 800.0),
+        // One square metre.
+        (area("\"float luminance\" 50"), 50.0 * pi),
+    ];
+    for (world, expected) in cases {
+        let found = lumens(&world);
+        assert!((found / expected - 1.0).abs() < 1e-4, "{world}: {found} {expected}");
+    }
 }

@@ -3,6 +3,7 @@
 use super::id::Id;
 use super::medium::MediumDesc;
 use super::value::{FileRef, SpectrumDesc};
+use crate::light::Total;
 use crate::math::{AnimatedTransform, Point};
 use crate::scene::source::Span;
 
@@ -15,6 +16,8 @@ pub struct LightDesc {
     pub scale: f32,
     /// How amounts are meant.
     pub normalization: Normalization,
+    /// What it is scaled to instead of the amount of its spectrum, > 0; that of a map at infinity is of a plane facing +z.
+    pub total: Option<Total>,
     /// The transform in force.
     pub world_from_light: AnimatedTransform,
     /// The medium around the light.
@@ -43,8 +46,6 @@ pub enum LightKind {
         intensity: SpectrumDesc,
         /// Position (origin).
         from: Point,
-        /// Luminous power [lm] that replaces the amount of the intensity, > 0.
-        power: Option<f32>,
     },
     /// A point that shines in a cone.
     Spot {
@@ -58,8 +59,6 @@ pub enum LightKind {
         cone_angle: f32,
         /// Width of the falloff inside the cone [degrees] (5).
         cone_delta_angle: f32,
-        /// Luminous power [lm], > 0.
-        power: Option<f32>,
     },
     /// A point whose intensity is a picture of directions.
     Goniometric {
@@ -67,8 +66,6 @@ pub enum LightKind {
         intensity: SpectrumDesc,
         /// Equal-area octahedral picture.
         file: FileRef,
-        /// Luminous power [lm], > 0.
-        power: Option<f32>,
     },
     /// A slide projector.
     Projection {
@@ -76,8 +73,6 @@ pub enum LightKind {
         file: FileRef,
         /// Full angle of view along the slide's shorter side [degrees] (90), in (0, 180).
         fov: f32,
-        /// Luminous power [lm], > 0.
-        power: Option<f32>,
     },
     /// Parallel light from infinity.
     Distant {
@@ -87,23 +82,24 @@ pub enum LightKind {
         from: Point,
         /// … to here (0, 0, 1); differs from `from`.
         to: Point,
-        /// Perpendicular illuminance [lx], > 0.
-        illuminance: Option<f32>,
     },
     /// The same radiance from every direction.
     UniformInfinite {
         /// Radiance (the colour space's white).
         radiance: SpectrumDesc,
-        /// Illuminance on a plane [lx], > 0.
-        illuminance: Option<f32>,
     },
     /// Radiance from all directions by a picture.
     ImageInfinite {
         /// Equal-area octahedral picture, square.
         file: FileRef,
-        /// Illuminance on a plane facing +z of light space [lx], > 0.
-        illuminance: Option<f32>,
     },
+}
+
+impl LightKind {
+    /// Whether the light has no place in the scene, so that its amount is per area and not over a squared distance.
+    pub fn is_at_infinity(&self) -> bool {
+        matches!(self, Self::Distant { .. } | Self::UniformInfinite { .. } | Self::ImageInfinite { .. })
+    }
 }
 
 /// The emission that shapes after an `AreaLightSource` directive have.
@@ -117,8 +113,8 @@ pub struct AreaLightDesc {
     pub normalization: Normalization,
     /// Whether both sides emit (false).
     pub two_sided: bool,
-    /// Luminous power [lm] of each shape that replaces the amount of the radiance, > 0.
-    pub power: Option<f32>,
+    /// What each shape is scaled to instead of the amount of its radiance, > 0.
+    pub total: Option<Total>,
     /// The directive.
     pub span: Span,
 }

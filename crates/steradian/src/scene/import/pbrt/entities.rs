@@ -179,12 +179,13 @@ impl Importer<'_> {
             Args::new(&mut self.ctx, params, &presets, self.state.color_space, subject, class.span);
         let scale = args.float("scale", 1.0);
         let normalization = light::normalization(class, &mut args);
+        let total = light::total(class, &mut args);
         let kind = light::light(class, &mut args);
         args.finish();
         let Some(kind) = kind else { return };
         let medium = self.state.media.and_then(|m| m.outside);
         let world_from_light = self.state.animated();
-        self.lights.push(LightDesc { kind, scale, normalization, world_from_light, medium, span });
+        self.lights.push(LightDesc { kind, scale, normalization, total, world_from_light, medium, span });
     }
 
     fn area_light(&mut self, class: &Text, params: Params, span: Span) {

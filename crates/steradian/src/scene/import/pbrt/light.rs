@@ -1,8 +1,10 @@
 //! Light classes.
 
 use super::args::Args;
+use crate::light::Total;
 use crate::math::Point;
 use crate::scene::desc::{AreaLightDesc, AreaRadiance, FileRef, LightKind, Normalization};
+use crate::scene::diagnostic::Diagnostic;
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
@@ -15,7 +17,6 @@ pub(super) fn light(class: &Text, args: &mut Args<'_>) -> Option<LightKind> {
         "point" => Some(LightKind::Point {
             intensity: args.light_spectrum("I"),
             from: args.point("from", Point::ORIGIN),
-            power: amount(args, "power"),
         }),
         "spot" => {
             let Aim { from, to } = aim(args)?;
@@ -25,29 +26,21 @@ pub(super) fn light(class: &Text, args: &mut Args<'_>) -> Option<LightKind> {
                 to,
                 cone_angle: args.float_where("coneangle", 30.0, |v| v > 0.0 && v <= 180.0, "in (0, 180]"),
                 cone_delta_angle: args.non_negative("conedeltaangle", 5.0),
-                power: amount(args, "power"),
             })
         }
         "goniometric" => {
             let intensity = args.light_spectrum("I");
-            let power = amount(args, "power");
             let file = needed_file(args)?;
-            Some(LightKind::Goniometric { intensity, file, power })
+            Some(LightKind::Goniometric { intensity, file })
         }
         "projection" => {
             let fov = args.float_where("fov", 90.0, |v| v > 0.0 && v < 180.0, "between 0 and 180");
-            let power = amount(args, "power");
             let file = needed_file(args)?;
-            Some(LightKind::Projection { file, fov, power })
+            Some(LightKind::Projection { file, fov })
         }
         "distant" => {
             let Aim { from, to } = aim(args)?;
-            Some(LightKind::Distant {
-                irradiance: args.light_spectrum("L"),
-                from,
-                to,
-                illuminance: amount(args, "illuminance"),
-            })
+            Some(LightKind::Distant { irradiance: args.light_spectrum("L"), from, to })
         }
         "infinite" => infinite(args),
         _ => {
@@ -95,20 +88,57 @@ pub(super) fn area_light(class: &Text, directive: Span, args: &mut Args<'_>) -> 
         scale: args.float("scale", 1.0),
         normalization: normalization(class, args),
         two_sided: args.bool("twosided", false),
-        power: amount(args, "power"),
+        total: total(class, args),
         span: directive,
     })
 }
 
-/// A photometric amount that overrides the spectrum's; pbrt takes anything not positive for absent.
-fn amount(args: &mut Args<'_>, name: &'static str) -> Option<f32> {
-    let span = args.span_of(name);
-    let v = args.float_opt(name)?;
-    if v > 0.0 {
-        return Some(v);
+/// A parameter that states an amount: its name, and what the number is.
+type AmountParameter = (&'static str, fn(f32) -> Total);
+
+/// The ways to state how much a light of a class emits [lm, W, cd; lx, W·m⁻², cd·m⁻²].
+fn amounts_of(class: &str) -> &'static [AmountParameter] {
+    match class {
+        "distant" => &[("illuminance", Total::Luminous), ("irradiance", Total::Radiant)],
+        "infinite" => &[
+            ("illuminance", Total::Luminous),
+            ("irradiance", Total::Radiant),
+            ("luminance", Total::Directional),
+        ],
+        "diffuse" => {
+            &[("power", Total::Luminous), ("watts", Total::Radiant), ("luminance", Total::Directional)]
+        }
+        _ => &[("power", Total::Luminous), ("watts", Total::Radiant), ("intensity", Total::Directional)],
     }
-    args.ctx.diagnostics.notice(span, format!("\"{name}\" is ignored because it is not positive"));
-    None
+}
+
+/// The amount that a light is scaled to; more than one is an error.
+pub(super) fn total(class: &Text, args: &mut Args<'_>) -> Option<Total> {
+    let mut found: Option<(&str, Total)> = None;
+    for &(name, kind) in amounts_of(&class.value) {
+        let span = args.span_of(name);
+        let Some(value) = args.float_opt(name) else { continue };
+        if !(value > 0.0) {
+            // pbrt takes anything not positive for absent; its parameters are these two.
+            if matches!(name, "power" | "illuminance") {
+                let message = format!("\"{name}\" is ignored because it is not positive");
+                args.ctx.diagnostics.notice(span, message);
+            } else {
+                args.error(span, format!("parameter \"{name}\" must be positive, found {value}"));
+            }
+            continue;
+        }
+        match found {
+            Some((earlier, _)) => {
+                let first = args.span_of(earlier);
+                let message = format!("the amount is stated twice: by \"{earlier}\" and by \"{name}\"");
+                let d = Diagnostic::error(span, message);
+                args.ctx.diagnostics.push(d.with_related(first, "the other statement"));
+            }
+            None => found = Some((name, kind(value))),
+        }
+    }
+    found.map(|(_, total)| total)
 }
 
 struct Aim {
@@ -148,9 +178,8 @@ fn infinite(args: &mut Args<'_>) -> Option<LightKind> {
     if both {
         args.error(span, "give \"L\" or \"filename\", not both");
     }
-    let illuminance = amount(args, "illuminance");
     Some(match file {
-        Some(file) => LightKind::ImageInfinite { file, illuminance },
-        None => LightKind::UniformInfinite { radiance, illuminance },
+        Some(file) => LightKind::ImageInfinite { file },
+        None => LightKind::UniformInfinite { radiance },
     })
 }

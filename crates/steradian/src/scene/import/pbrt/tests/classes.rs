@@ -3,6 +3,7 @@
 use super::{scene, world};
 use crate::color::ColorSpaceKind;
 use crate::image::ColorEncoding;
+use crate::light::Total;
 use crate::math::{Point, Vec3};
 use crate::scene::desc::*;
 use std::path::Path;
@@ -311,16 +312,18 @@ fn every_light_reads_its_parameters() {
          LightSource \"infinite\" \"rgb L\" [1 1 1] \"string unit\" \"radiance\"",
     );
     let kinds: Vec<&LightKind> = s.lights.iter().map(|l| &l.kind).collect();
-    assert!(
-        matches!(kinds[0], LightKind::Point { power: Some(100.0), from, .. } if *from == Point::new(1.0, 2.0, 3.0))
-    );
+    assert!(matches!(kinds[0], LightKind::Point { from, .. } if *from == Point::new(1.0, 2.0, 3.0)));
     assert_eq!((s.lights[0].scale, s.lights[1].scale), (2.0, 1.0));
-    assert!(matches!(kinds[1], LightKind::Spot { cone_angle: 20.0, cone_delta_angle: 4.0, power: None, .. }));
+    assert!(matches!(kinds[1], LightKind::Spot { cone_angle: 20.0, cone_delta_angle: 4.0, .. }));
     assert!(matches!(kinds[2], LightKind::Goniometric { file, .. } if file.path == Path::new("g.exr")));
     assert!(matches!(kinds[3], LightKind::Projection { fov: 30.0, .. }));
-    assert!(matches!(kinds[4], LightKind::Distant { illuminance: Some(1000.0), .. }));
-    assert!(matches!(kinds[5], LightKind::ImageInfinite { illuminance: Some(10.0), .. }));
-    assert!(matches!(kinds[6], LightKind::UniformInfinite { illuminance: None, .. }));
+    assert!(matches!(kinds[4], LightKind::Distant { .. }));
+    assert!(matches!(kinds[5], LightKind::ImageInfinite { .. }));
+    assert!(matches!(kinds[6], LightKind::UniformInfinite { .. }));
+    let lm = Some(Total::Luminous(100.0));
+    let (lx, dim) = (Some(Total::Luminous(1000.0)), Some(Total::Luminous(10.0)));
+    let totals: Vec<_> = s.lights.iter().map(|l| l.total).collect();
+    assert_eq!(totals, [lm, None, None, None, lx, dim, None]);
     let absolute = [false, false, false, false, false, false, true];
     assert_eq!(
         s.lights.iter().map(|l| l.normalization == Normalization::Absolute).collect::<Vec<_>>(),
@@ -337,9 +340,9 @@ fn area_lights_serve_the_shapes_that_follow() {
     let light = |n: usize| s.shapes[n].area_light.unwrap().index();
     assert_eq!([light(0), light(1), light(2)], [0, 0, 1]);
     let [a, b] = s.area_lights.as_slice() else { panic!("two") };
-    assert_eq!((a.two_sided, a.power, a.scale), (true, Some(60.0), 1.0));
+    assert_eq!((a.two_sided, a.total, a.scale), (true, Some(Total::Luminous(60.0)), 1.0));
     assert!(matches!(&b.radiance, AreaRadiance::Image(f) if f.path == Path::new("e.png")));
-    assert_eq!((b.two_sided, b.power, b.scale), (false, None, 3.0));
+    assert_eq!((b.two_sided, b.total, b.scale), (false, None, 3.0));
 }
 
 #[test]

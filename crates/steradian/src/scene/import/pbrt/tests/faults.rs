@@ -19,6 +19,22 @@ fn expect_header(header: &str, expected: &[&str]) {
 }
 
 #[test]
+fn amounts_of_lights_are_stated_once_and_in_units_that_fit() {
+    expect(
+        "LightSource \"point\" \"float power\" 100 \"float watts\" 2",
+        &["2:39: error: the amount is stated twice: by \"power\" and by \"watts\""],
+    );
+    expect(
+        "LightSource \"distant\" \"float luminance\" 100",
+        &["2:23: error: light \"distant\" has no parameter \"luminance\""],
+    );
+    expect(
+        "LightSource \"infinite\" \"float luminance\" -1",
+        &["2:24: error: parameter \"luminance\" must be positive, found -1"],
+    );
+}
+
+#[test]
 fn faults_of_grammar() {
     expect("Shpae \"sphere\"", &["2:1: error: unknown directive `Shpae` (did you mean \"Shape\"?)"]);
     expect("Frobnicate 1 2 3", &["2:1: error: unknown directive `Frobnicate`"]);
