@@ -1,7 +1,10 @@
 //! Estimates that know what they measure.
 
 use super::estimate::Estimate;
-use super::kind::{Energy, Exitance, Flux, Intensity, Irradiance, Luminous, Radiant, Spectral, Unit};
+use super::kind::{
+    Energy, EquivalentDaylight, Exitance, Flux, Intensity, Irradiance, Luminous, Melanopic, Radiant,
+    Spectral, Unit,
+};
 use super::quantity::Radiance;
 use std::fmt;
 use std::marker::PhantomData;
@@ -28,6 +31,12 @@ pub type LuminousIntensity = Measured<Intensity, Luminous>;
 pub type Illuminance = Measured<Irradiance, Luminous>;
 /// L_v [cd·m⁻²].
 pub type Luminance = Measured<Radiance, Luminous>;
+/// M_v [lm·m⁻²].
+pub type LuminousExitance = Measured<Exitance, Luminous>;
+/// Melanopic EDI, E_v,mel(D65) [lx].
+pub type MelanopicIlluminance = Measured<Irradiance, EquivalentDaylight<Melanopic>>;
+/// Φ_e [W].
+pub type RadiantFlux = Measured<Flux, Radiant>;
 /// Q_e [J].
 pub type RadiantEnergy = Measured<Energy, Radiant>;
 /// M_e [W·m⁻²].
