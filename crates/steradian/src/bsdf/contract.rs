@@ -12,7 +12,7 @@
 
 use crate::math::LocalDir;
 use crate::spectrum::Sampled;
-use crate::units::{Density, Unitless};
+use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
 
 /// What is transported along the path: radiance is scaled by (ηo/ηi)² through a refraction, power is not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +101,26 @@ pub struct BsdfSample {
     pub lobe: Lobe,
     /// Relative index of refraction ηt/ηi that the sample crossed; 1 for reflection.
     pub eta: f32,
+}
+
+impl BsdfSample {
+    /// A direction on the side of `wo`, drawn from the density `pdf` for the closed form `f`; `None` where the density
+    /// vanishes.
+    pub(crate) fn reflected(
+        wi: LocalDir,
+        f: Sampled<PerSteradian>,
+        pdf: PdfSolidAngle,
+        lobe: Lobe,
+    ) -> Option<Self> {
+        (pdf.0 > 0.0).then(|| Self {
+            wi,
+            weight: f.weight(wi.abs_cos_theta(), pdf),
+            density: Density::SolidAngle(pdf),
+            side: Side::Reflection,
+            lobe,
+            eta: 1.0,
+        })
+    }
 }
 
 /// Which lobes of a BSDF are present: a purely specular one needs no light samples.

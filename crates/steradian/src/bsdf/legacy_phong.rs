@@ -17,12 +17,12 @@
 //! which depends on the direction of the *light* in a way that it does not on that of the view: reciprocity fails,
 //! B (2.18), and towards grazing light more power leaves than arrives, without bound, B (2.19).
 
-use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side};
+use super::contract::{BsdfSample, Lobe, Lobes, Mode};
 use super::cosine_lobe::{self, mirrored};
 use super::specimen::{Claims, Energy, Reciprocity, Specimen};
 use crate::math::{LocalDir, Vec2, warp};
 use crate::spectrum::Sampled;
-use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
+use crate::units::{PdfSolidAngle, PerSteradian, Unitless};
 use std::f32::consts::FRAC_1_PI;
 
 /// Phong's model, A (40): not a BRDF. Alike on both sides of the surface, dark to light from the other one (the text shows
@@ -77,18 +77,7 @@ impl LegacyPhong {
         } else {
             (cosine_lobe::sample(mirrored(wo), self.exponent, u)?, Lobe::Glossy)
         };
-        let pdf = self.pdf(wo, wi);
-        if !(pdf.0 > 0.0) {
-            return None;
-        }
-        Some(BsdfSample {
-            wi,
-            weight: self.eval(wo, wi, mode).weight(wi.abs_cos_theta(), pdf),
-            density: Density::SolidAngle(pdf),
-            side: Side::Reflection,
-            lobe,
-            eta: 1.0,
-        })
+        BsdfSample::reflected(wi, self.eval(wo, wi, mode), self.pdf(wo, wi), lobe)
     }
 
     /// Which lobes are present.

@@ -1,12 +1,12 @@
 //! The modified Phong model of B (2.30)–(2.38): a BRDF that keeps its energy, if it is normalised for the lobe it has.
 
-use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::contract::{BsdfSample, Lobe, Lobes};
 use super::cosine_lobe::{self, mirrored};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, warp};
 use crate::optics::refraction;
 use crate::spectrum::Sampled;
-use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
+use crate::units::{PdfSolidAngle, PerSteradian, Unitless};
 use std::f32::consts::{FRAC_1_PI, PI, TAU};
 
 /// What the angle α of the lobe is measured between.
@@ -115,18 +115,7 @@ impl ModifiedPhong {
             };
             (wi, Lobe::Glossy)
         };
-        let pdf = self.pdf(wo, wi);
-        if !(pdf.0 > 0.0) {
-            return None;
-        }
-        Some(BsdfSample {
-            wi,
-            weight: self.eval(wo, wi).weight(wi.abs_cos_theta(), pdf),
-            density: Density::SolidAngle(pdf),
-            side: Side::Reflection,
-            lobe,
-            eta: 1.0,
-        })
+        BsdfSample::reflected(wi, self.eval(wo, wi), self.pdf(wo, wi), lobe)
     }
 
     /// Which lobes are present.

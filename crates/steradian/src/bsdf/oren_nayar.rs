@@ -16,12 +16,12 @@
 //! The sum is reciprocal, and without loss at ρ = 1. E is the exact integral here, not the paper's polynomial.
 
 use super::albedo::Albedo;
-use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::contract::{BsdfSample, Lobe, Lobes};
 use super::specimen::{Claims, Specimen};
 use crate::math::float::safe_sqrt;
 use crate::math::{LocalDir, Vec2, Vec3, warp};
 use crate::spectrum::Sampled;
-use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
+use crate::units::{PdfSolidAngle, PerSteradian, Unitless};
 use std::f32::consts::{FRAC_1_PI, PI, TAU};
 
 /// G(0)/π = 1/2 − 2/(3π): makes the albedo of light scattered once exactly one at grazing incidence.
@@ -78,18 +78,7 @@ impl OrenNayar {
         } else {
             ClippedLobe::new(wo, self.roughness).sample(u)?
         };
-        let pdf = self.pdf(wo, wi);
-        if !(wo.same_hemisphere(wi) && pdf.0 > 0.0) {
-            return None;
-        }
-        Some(BsdfSample {
-            wi,
-            weight: self.eval(wo, wi).weight(wi.abs_cos_theta(), pdf),
-            density: Density::SolidAngle(pdf),
-            side: Side::Reflection,
-            lobe: Lobe::Diffuse,
-            eta: 1.0,
-        })
+        BsdfSample::reflected(wi, self.eval(wo, wi), self.pdf(wo, wi), Lobe::Diffuse)
     }
 
     /// Which lobes are present.

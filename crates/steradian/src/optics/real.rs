@@ -39,26 +39,33 @@ pub trait Real:
     fn refracted_square_from_below(eta: Self, cos_theta: Self) -> Self;
 }
 
+/// What reads the same for both types.
+macro_rules! what_both_have {
+    () => {
+        const ZERO: Self = 0.0;
+        const ONE: Self = 1.0;
+        const HALF: Self = 0.5;
+        const TINY: Self = Self::MIN_POSITIVE;
+
+        #[inline]
+        fn abs(self) -> Self {
+            self.abs()
+        }
+
+        #[inline]
+        fn sqrt(self) -> Self {
+            self.sqrt()
+        }
+
+        #[inline]
+        fn min(self, other: Self) -> Self {
+            self.min(other)
+        }
+    };
+}
+
 impl Real for f32 {
-    const ZERO: Self = 0.0;
-    const ONE: Self = 1.0;
-    const HALF: Self = 0.5;
-    const TINY: Self = Self::MIN_POSITIVE;
-
-    #[inline]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-
-    #[inline]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-
-    #[inline]
-    fn min(self, other: Self) -> Self {
-        self.min(other)
-    }
+    what_both_have!();
 
     #[inline]
     fn refracted_square(eta: Self, k: Self, cos_theta: Self) -> Self {
@@ -72,25 +79,7 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
-    const ZERO: Self = 0.0;
-    const ONE: Self = 1.0;
-    const HALF: Self = 0.5;
-    const TINY: Self = Self::MIN_POSITIVE;
-
-    #[inline]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-
-    #[inline]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-
-    #[inline]
-    fn min(self, other: Self) -> Self {
-        self.min(other)
-    }
+    what_both_have!();
 
     #[inline]
     fn refracted_square(eta: Self, k: Self, cos_theta: Self) -> Self {
