@@ -9,6 +9,7 @@ pub mod sigmoid;
 pub mod rgb;
 pub mod function;
 pub mod named;
+pub mod photometry;
 
 pub use blackbody::Blackbody;
 pub use function::Spectrum;
