@@ -30,8 +30,10 @@ pub(crate) enum Command {
     /// Render a scene to an image; without a scene, the built-in Cornell box
     Render(Render),
     /// Describe a scene: counts, bounds, memory, lights with their power, what is unsupported
+    #[command(after_help = "Example:\n  steradian info scene.pbrt")]
     Info(Inspect),
     /// Report every problem of a scene; the exit code says whether there was an error
+    #[command(after_help = "Example:\n  steradian check scene.pbrt")]
     Check(Inspect),
     /// Test whether materials obey the laws of scattering: those of a scene, else all built-in specimens
     Verify(Verify),
@@ -54,6 +56,7 @@ pub(crate) struct Inspect {
 }
 
 #[derive(Args, Debug)]
+#[command(after_help = VERIFY_NOTES)]
 pub(crate) struct Verify {
     /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input [default: built-in specimens]
     #[arg(value_name = "SCENE")]
@@ -87,6 +90,11 @@ pub(crate) struct Verify {
     pub(crate) quiet: bool,
 }
 
+const VERIFY_NOTES: &str = "\
+Examples:
+  steradian verify                                       all built-in specimens, in a few minutes
+  steradian verify scene.pbrt --material paint --html paint.html";
+
 /// How thoroughly materials are examined.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effort {
@@ -99,6 +107,7 @@ pub(crate) enum Effort {
 }
 
 #[derive(Args, Debug)]
+#[command(after_help = RENDER_NOTES)]
 pub(crate) struct Render {
     /// Scene files in the pbrt-v4 format, read as one; `-` reads standard input
     #[arg(value_name = "SCENE")]
@@ -138,7 +147,13 @@ pub(crate) struct Render {
     pub(crate) stats: bool,
 }
 
+const RENDER_NOTES: &str = "\
+Examples:
+  steradian render scene.pbrt -o picture.exr -o picture.png --spp 256
+  steradian render scene.pbrt --crop 0.25,0.75,0.25,0.75 --time 60s --stats";
+
 #[derive(Args, Debug)]
+#[command(after_help = "Example:\n  steradian compare a.exr reference.exr -o difference.png")]
 pub(crate) struct Compare {
     /// Image under test (EXR)
     pub(crate) image: PathBuf,
@@ -408,6 +423,34 @@ mod tests {
     fn arguments_are_consistent() {
         use clap::CommandFactory as _;
         Cli::command().debug_assert();
+    }
+
+    /// Every command shows an example in its help, and every example is one that the program accepts.
+    #[test]
+    fn every_help_has_an_example_that_parses() {
+        use clap::CommandFactory as _;
+        fn visit(command: &clap::Command, path: &str) {
+            let path = format!("{path} {}", command.get_name());
+            if command.has_subcommands() {
+                command.get_subcommands().filter(|c| c.get_name() != "help").for_each(|c| visit(c, &path));
+                return;
+            }
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let examples: Vec<&str> =
+                help.lines().map(str::trim).filter(|l| l.starts_with("steradian ")).collect();
+            assert!(
+                examples.iter().any(|e| format!(" {e} ").starts_with(&format!("{path} "))),
+                "{path} has no example of its own"
+            );
+            for example in examples {
+                // What follows several spaces explains; what follows a bar is another program.
+                let words = example.split("   ").next().unwrap_or("").split('|').next().unwrap_or("");
+                if let Err(e) = Cli::try_parse_from(words.split_whitespace()) {
+                    panic!("{path}: {example}\n{e}");
+                }
+            }
+        }
+        Cli::command().get_subcommands().for_each(|c| visit(c, " steradian"));
     }
 
     #[test]
