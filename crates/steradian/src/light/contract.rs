@@ -85,6 +85,15 @@ pub enum LightError {
     /// Width and height of an environment map [px].
     #[error("an environment map must be square (equal-area octahedral), not {0} by {1} pixels")]
     NotSquare(u32, u32),
+    /// A sky whose luminance depends on the sun.
+    #[error("this sky is brighter near the sun, and nothing says where the sun stands")]
+    NoSun,
+    /// Elevation of the sun [°].
+    #[error("the sun stands below the horizon, at an elevation of {0:.2} degrees")]
+    SunBelowHorizon(f32),
+    /// Angular radius of the sun [°].
+    #[error("the sun's angular radius must lie between 0.01 and 10 degrees, not {0}")]
+    AngularRadius(f32),
     /// An amount in lumen or lux of a black picture.
     #[error("the picture is black, so it cannot be scaled to an amount")]
     Black,

@@ -9,6 +9,7 @@ mod octahedral;
 mod picture;
 mod point;
 mod selection;
+mod sky;
 mod tree;
 
 pub use area::{AreaRadiance, DiffuseAreaLight, Sides};
@@ -19,6 +20,10 @@ pub use octahedral::latlong_to_octahedral;
 pub use picture::EmissionPicture;
 pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
 pub use selection::{Chosen, LightSampler};
+pub use sky::{
+    Compass, GeneralSky, Ground, Handedness, Moment, MomentError, Place, SUN_ANGULAR_RADIUS, SkyIntegrals,
+    SkyLight, SkyLuminance, SkyModel, SkyPlacement, SolarPosition, SunLight,
+};
 
 use bounds::EmitterBounds;
 use selection::Candidate;
@@ -45,6 +50,10 @@ pub enum Light {
     UniformInfinite(UniformInfiniteLight),
     /// An environment map.
     ImageInfinite(Box<ImageInfiniteLight>),
+    /// A sky with its own distribution of luminance.
+    Sky(Box<SkyLight>),
+    /// The sun's disk.
+    Sun(Box<SunLight>),
     /// An emitting shape.
     DiffuseArea(DiffuseAreaLight),
 }
@@ -69,6 +78,8 @@ impl Light {
             Self::Projection(l) => l.sample(from, w),
             Self::UniformInfinite(l) => l.sample(u, w),
             Self::ImageInfinite(l) => l.sample(u, w),
+            Self::Sky(l) => l.sample(u, w),
+            Self::Sun(l) => l.sample(u, w),
             Self::DiffuseArea(l) => l.sample(from, shapes, prim, u, w),
         }
     }
@@ -91,7 +102,9 @@ impl Light {
             | Self::Goniometric(_)
             | Self::Projection(_)
             | Self::UniformInfinite(_)
-            | Self::ImageInfinite(_) => PdfSolidAngle(0.0),
+            | Self::ImageInfinite(_)
+            | Self::Sky(_)
+            | Self::Sun(_) => PdfSolidAngle(0.0),
         }
     }
 
@@ -101,6 +114,8 @@ impl Light {
         match self {
             Self::UniformInfinite(l) => l.density(),
             Self::ImageInfinite(l) => l.density(wi),
+            Self::Sky(l) => l.density(wi),
+            Self::Sun(l) => l.density(wi),
             Self::Point(_)
             | Self::Spot(_)
             | Self::Distant(_)
@@ -120,7 +135,9 @@ impl Light {
             | Self::Goniometric(_)
             | Self::Projection(_)
             | Self::UniformInfinite(_)
-            | Self::ImageInfinite(_) => Sampled::ZERO,
+            | Self::ImageInfinite(_)
+            | Self::Sky(_)
+            | Self::Sun(_) => Sampled::ZERO,
         }
     }
 
@@ -129,6 +146,8 @@ impl Light {
         match self {
             Self::UniformInfinite(l) => l.escaped(w),
             Self::ImageInfinite(l) => l.escaped(wi, w),
+            Self::Sky(l) => l.escaped(wi, w),
+            Self::Sun(l) => l.escaped(wi, w),
             Self::Point(_)
             | Self::Spot(_)
             | Self::Distant(_)
@@ -149,6 +168,8 @@ impl Light {
             Self::Projection(l) => l.power(),
             Self::UniformInfinite(l) => l.power(scene_radius),
             Self::ImageInfinite(l) => l.power(scene_radius),
+            Self::Sky(l) => l.power(scene_radius),
+            Self::Sun(l) => l.power(scene_radius),
             Self::DiffuseArea(l) => l.power(),
         }
     }
@@ -162,6 +183,8 @@ impl Light {
             Self::Goniometric(_) => "goniometric",
             Self::Projection(_) => "projection",
             Self::UniformInfinite(_) | Self::ImageInfinite(_) => "infinite",
+            Self::Sky(_) => "sky",
+            Self::Sun(_) => "sun",
             Self::DiffuseArea(_) => "diffuse area",
         }
     }
@@ -174,7 +197,11 @@ impl Light {
             | Self::Distant(_)
             | Self::Goniometric(_)
             | Self::Projection(_) => true,
-            Self::UniformInfinite(_) | Self::ImageInfinite(_) | Self::DiffuseArea(_) => false,
+            Self::UniformInfinite(_)
+            | Self::ImageInfinite(_)
+            | Self::Sky(_)
+            | Self::Sun(_)
+            | Self::DiffuseArea(_) => false,
         }
     }
 
@@ -189,13 +216,24 @@ impl Light {
             Self::Spot(l) => vec![l.bounds(power)],
             Self::Goniometric(l) => vec![l.bounds(power)],
             Self::Projection(l) => vec![l.bounds(power)],
-            Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_) => Vec::new(),
+            Self::Distant(_)
+            | Self::UniformInfinite(_)
+            | Self::ImageInfinite(_)
+            | Self::Sky(_)
+            | Self::Sun(_) => Vec::new(),
         }
     }
 
     /// Whether the light has no place in the scene.
     pub fn is_infinite(&self) -> bool {
-        matches!(self, Self::Distant(_) | Self::UniformInfinite(_) | Self::ImageInfinite(_))
+        matches!(
+            self,
+            Self::Distant(_)
+                | Self::UniformInfinite(_)
+                | Self::ImageInfinite(_)
+                | Self::Sky(_)
+                | Self::Sun(_)
+        )
     }
 }
 

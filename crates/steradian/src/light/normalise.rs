@@ -100,6 +100,14 @@ impl Stated {
             (None, Amount::Absolute) => Ok(self.scale),
         }
     }
+
+    /// A spectrum that gives exactly what is stated: an RGB triple would keep its own size.
+    pub(super) fn measurable(&self, spectrum: Spectrum) -> Spectrum {
+        match spectrum {
+            Spectrum::RgbIlluminant(_) if self.total.is_some() => Spectrum::Dense(spectrum.densely_sampled()),
+            other => other,
+        }
+    }
 }
 
 /// ∫ over 360–830 nm [nm · unit], by the sum over 1 nm.
@@ -152,6 +160,12 @@ impl Emission {
         let watts = radiant_integral(&spectrum);
         let lumens = LUMENS_PER_WATT * cie::luminous_integral(|l| spectrum.at(l));
         Ok(Self { spectrum, watts, lumens })
+    }
+
+    /// Times a factor, finite and not negative.
+    pub(super) fn times(&self, factor: f32) -> Self {
+        let spectrum = self.spectrum.clone().scaled(factor);
+        Self { spectrum, watts: factor * self.watts, lumens: factor * self.lumens }
     }
 
     /// Values at a path's wavelengths; the owner knows whether they are radiance, intensity or irradiance.

@@ -56,7 +56,13 @@ pub(super) fn choose(
 /// Legacy shading sums over lights that shine from one direction each, A (28).
 fn report_lights_left_out(scene: &SceneDesc, diagnostics: &mut Diagnostics) {
     let extended = |kind: &LightKind| {
-        matches!(kind, LightKind::UniformInfinite { .. } | LightKind::ImageInfinite { .. })
+        matches!(
+            kind,
+            LightKind::UniformInfinite { .. }
+                | LightKind::ImageInfinite { .. }
+                | LightKind::Sky(_)
+                | LightKind::Sun(_)
+        )
     };
     let skies = scene.lights.iter().filter(|l| extended(&l.kind)).map(|l| l.span);
     for span in skies.chain(scene.area_lights.iter().map(|l| l.span)) {

@@ -7,7 +7,7 @@ use super::textures::TextureCompiler;
 use super::view::rebase;
 use crate::image::Image;
 use crate::light::{
-    Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight,
+    Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight, Handedness,
     ImageInfiniteLight, Light, LightError, PointLight, ProjectionLight, Sides, SpotLight, Stated, Total,
     UniformInfiniteLight, latlong_to_octahedral,
 };
@@ -27,6 +27,8 @@ pub(super) struct LightCompiler<'a, 'b> {
     pub(super) render_from_world: Transform,
     /// Length of a scene unit [m].
     pub(super) meters_per_unit: f32,
+    /// Of the picture of render space.
+    pub(super) handedness: Handedness,
 }
 
 impl LightCompiler<'_, '_> {
@@ -119,6 +121,8 @@ impl LightCompiler<'_, '_> {
                 let picture = self.emission(map);
                 ImageInfiniteLight::new(t, picture, &stated).map(|l| Light::ImageInfinite(Box::new(l)))
             }
+            LightKind::Sky(sky) => return self.sky(sky, desc, &t),
+            LightKind::Sun(sun) => return self.sun(sun, desc, &t),
         };
         let place = match (&light, &desc.kind) {
             (
@@ -137,11 +141,11 @@ impl LightCompiler<'_, '_> {
         (self.meters_per_unit * self.meters_per_unit).recip()
     }
 
-    fn report(&mut self, light: Result<Light, LightError>, span: Span) -> Option<Light> {
+    pub(super) fn report(&mut self, light: Result<Light, LightError>, span: Span) -> Option<Light> {
         light.map_err(|e| self.textures.diagnostics.error(span, e.to_string())).ok()
     }
 
-    fn spectrum(&mut self, desc: &SpectrumDesc) -> Spectrum {
+    pub(super) fn spectrum(&mut self, desc: &SpectrumDesc) -> Spectrum {
         self.textures.spectra.compile(desc, Meaning::Illuminant, self.textures.diagnostics)
     }
 
@@ -187,7 +191,7 @@ impl LightCompiler<'_, '_> {
     }
 }
 
-fn stated(scale: f32, normalization: Normalization, total: Option<Total>) -> Stated {
+pub(super) fn stated(scale: f32, normalization: Normalization, total: Option<Total>) -> Stated {
     let amount = match normalization {
         Normalization::Photometric => Amount::Photometric,
         Normalization::Absolute => Amount::Absolute,

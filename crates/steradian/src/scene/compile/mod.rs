@@ -9,6 +9,7 @@ mod lights;
 mod materials;
 mod pictures;
 mod shapes;
+mod skies;
 mod spectra;
 mod textures;
 mod view;
@@ -65,6 +66,7 @@ pub fn compile_with_tables(
         textures: &mut textures,
         render_from_world,
         meters_per_unit: desc.options.meters_per_unit,
+        handedness: view::handedness(&desc.camera, &render_from_world),
     };
     for emitting in &set.emitters {
         let index = emitting.shape.0 as usize;

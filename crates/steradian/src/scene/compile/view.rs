@@ -1,6 +1,7 @@
 //! Camera, sampler and the space in which rays are traced.
 
 use crate::camera::{Camera, CameraError, Lens, Projection, Screen, SphereMap};
+use crate::light::Handedness;
 use crate::math::{AnimatedTransform, Point, Transform, Vec3};
 use crate::sampler;
 use crate::scene::desc::{
@@ -20,6 +21,12 @@ pub(super) fn render_from_world(camera: &CameraDesc, space: RenderingSpace) -> T
             Transform::translate(Vec3::ZERO - *world_from_camera.point(Point::ORIGIN))
         }
     }
+}
+
+/// How the picture shows the axes of render space.
+pub(super) fn handedness(camera: &CameraDesc, render_from_world: &Transform) -> Handedness {
+    let render_from_camera = *render_from_world * *camera.world_from_camera.start();
+    if render_from_camera.swaps_handedness() { Handedness::Right } else { Handedness::Left }
 }
 
 /// `target_from_world` after an animated transform.

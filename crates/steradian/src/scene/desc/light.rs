@@ -2,6 +2,7 @@
 
 use super::id::Id;
 use super::medium::MediumDesc;
+use super::sky::{SkyDesc, SunDesc};
 use super::value::{FileRef, SpectrumDesc};
 use crate::light::Total;
 use crate::math::{AnimatedTransform, Point};
@@ -93,12 +94,23 @@ pub enum LightKind {
         /// Equal-area octahedral picture, square.
         file: FileRef,
     },
+    /// A sky by model.
+    Sky(Box<SkyDesc>),
+    /// The sun's disk.
+    Sun(Box<SunDesc>),
 }
 
 impl LightKind {
     /// Whether the light has no place in the scene, so that its amount is per area and not over a squared distance.
     pub fn is_at_infinity(&self) -> bool {
-        matches!(self, Self::Distant { .. } | Self::UniformInfinite { .. } | Self::ImageInfinite { .. })
+        matches!(
+            self,
+            Self::Distant { .. }
+                | Self::UniformInfinite { .. }
+                | Self::ImageInfinite { .. }
+                | Self::Sky(_)
+                | Self::Sun(_)
+        )
     }
 }
 

@@ -11,6 +11,7 @@ pub mod medium;
 pub mod options;
 pub mod sampler;
 pub mod shape;
+pub mod sky;
 pub mod texture;
 pub mod value;
 
@@ -24,6 +25,7 @@ pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface
 pub use options::{OptionsDesc, RenderingSpace};
 pub use sampler::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};
 pub use shape::{CurveBasis, CurveDesc, CurveKind, InstanceDesc, MeshDesc, ObjectDesc, ShapeDesc, ShapeKind};
+pub use sky::{HorizonDesc, SkyDesc, SunDesc, SunPlaceDesc, SunPositionDesc};
 pub use texture::{
     CheckerboardDomain, FloatParam, FloatTextureDesc, FloatTextureKind, ImageFilter, ImageTextureDesc,
     Mapping2d, NoiseDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind, TextureDesc, TextureId,

@@ -1,6 +1,7 @@
 //! Light classes.
 
 use super::args::Args;
+use super::sky;
 use crate::light::Total;
 use crate::math::Point;
 use crate::scene::desc::{AreaLightDesc, AreaRadiance, FileRef, LightKind, Normalization};
@@ -8,7 +9,7 @@ use crate::scene::diagnostic::Diagnostic;
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
-const CLASSES: &[&str] = &["point", "spot", "goniometric", "projection", "distant", "infinite"];
+const CLASSES: &[&str] = &["point", "spot", "goniometric", "projection", "distant", "infinite", "sky", "sun"];
 const V3_CLASSES: &[&str] = &["exinfinite"];
 
 /// Reads the parameters of a light class; `None` when the class or something needed is missing (and reported).
@@ -43,6 +44,8 @@ pub(super) fn light(class: &Text, args: &mut Args<'_>) -> Option<LightKind> {
             Some(LightKind::Distant { irradiance: args.light_spectrum("L"), from, to })
         }
         "infinite" => infinite(args),
+        "sky" => sky::sky(args),
+        "sun" => sky::sun(args),
         _ => {
             args.unknown_class("light", class, CLASSES, V3_CLASSES);
             None
@@ -54,7 +57,7 @@ pub(super) fn light(class: &Text, args: &mut Args<'_>) -> Option<LightKind> {
 fn unit_of(class: &str) -> &'static str {
     match class {
         "point" | "spot" | "goniometric" | "projection" => "intensity",
-        "distant" => "irradiance",
+        "distant" | "sun" => "irradiance",
         _ => "radiance",
     }
 }
@@ -105,6 +108,12 @@ fn amounts_of(class: &str) -> &'static [AmountParameter] {
             ("irradiance", Total::Radiant),
             ("luminance", Total::Directional),
         ],
+        "sky" => &[
+            ("illuminance", Total::Luminous),
+            ("irradiance", Total::Radiant),
+            ("zenithluminance", Total::Directional),
+        ],
+        "sun" => &[("illuminance", Total::Luminous), ("irradiance", Total::Radiant)],
         "diffuse" => {
             &[("power", Total::Luminous), ("watts", Total::Radiant), ("luminance", Total::Directional)]
         }

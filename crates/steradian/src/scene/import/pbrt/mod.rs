@@ -19,6 +19,7 @@ mod names;
 mod options;
 mod sampler;
 mod shape;
+mod sky;
 mod spectrum;
 mod state;
 #[cfg(test)]
