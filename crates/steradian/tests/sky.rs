@@ -3,6 +3,9 @@
 mod support;
 
 use std::f64::consts::PI;
+use steradian::light::{Atmosphere, Daylight};
+use steradian::spectrum::Spectrum;
+use steradian::units::LUMENS_PER_WATT;
 use support::{SMALL_FILM, assert_luminance};
 
 /// A white plain seen from above; under a sky of horizontal illuminance E it shows ρE/π.
@@ -57,6 +60,22 @@ fn a_plain_in_the_sun_shows_its_illuminance_times_the_cosine() {
         Shape \"disk\" \"float radius\" 100"
     );
     assert_luminance(&mirror, 0.001 / (PI * 0.2666_f64.to_radians().sin().powi(2)), 0.01);
+}
+
+#[test]
+fn a_cloudless_day_gives_a_plain_what_its_atmosphere_lets_through() {
+    let atmosphere = Atmosphere { turbidity: 0.2, ground_reflectance: 0.1, ..Atmosphere::default() };
+    let elevation = 0.8_f64.asin().to_degrees();
+    let spectra = atmosphere.spectra(&Daylight { elevation, distance: 1.0 });
+    let shown = |e: &Spectrum| 0.5 * f64::from(LUMENS_PER_WATT * e.photometric_integral()) / PI;
+    let day = r#"LightSource "sky" "string model" "bird-riordan" "vector3 sundirection" [ 0 -3 4 ]
+        "float turbidity" 0.2 "float groundreflectance" 0.1"#;
+    assert_luminance(&plain(day), shown(&spectra.global_horizontal), 0.01);
+    assert_luminance(&plain(&format!("{day} \"bool sun\" false")), shown(&spectra.diffuse_horizontal), 0.01);
+    // Below the horizon, what the ground returns of both.
+    let below =
+        format!("{} \"float scale\" 0.01", day.replace("[ 0 -3 4 ]", "[ 0 4 -3 ] \"vector3 up\" [ 0 1 0 ]"));
+    assert_luminance(&looking(&below, false, "0 -1 0"), 0.01 * 0.2 * shown(&spectra.global_horizontal), 0.01);
 }
 
 /// A camera that looks at a spot of the sky through nothing, up being the scene's y.

@@ -27,7 +27,7 @@ LightSource "sky"
 scene.pbrt:2:34: error: unknown sky model "stormy"
  2 | LightSource "sky" "string model" "stormy"
    |                                  ^^^^^^^^
-  help: known are cie-1 to cie-16, overcast, clear and uniform
+  help: known are cie-1 to cie-16, overcast, clear, uniform and bird-riordan
 scene.pbrt:3:13: error: light "sky" needs a parameter "model"
  3 | LightSource "sky"
    |             ^^^^^
@@ -82,8 +82,8 @@ LightSource "sun" "float latitude" 98.1 "float longitude" 200 "string time" "202
 "#,
         r#"
 scene.pbrt:2:78: error: `2026-06-21T12:00` does not say which time it is: end it with the offset from universal time, like +02:00, or Z
- 2 | LightSource "sun" "float latitude" 48.1 "float longitude" 11.6 "string time" "2026-06-21T12:00"
-   |                                                                              ^^^^^^^^^^^^^^^^^^
+ 2 | … "float latitude" 48.1 "float longitude" 11.6 "string time" "2026-06-21T12:00"
+   |                                                              ^^^^^^^^^^^^^^^^^^
 scene.pbrt:3:19: error: parameter "latitude" must be from -90 to 90, found 98.1
  3 | LightSource "sun" "float latitude" 98.1 "float longitude" 200 "string time" "2026-06-31T12:00Z"
    |                   ^^^^^^^^^^^^^^^^
@@ -91,8 +91,8 @@ scene.pbrt:3:41: error: parameter "longitude" must be from -180 to 180, found 20
  3 | LightSource "sun" "float latitude" 98.1 "float longitude" 200 "string time" "2026-06-31T12:00Z"
    |                                         ^^^^^^^^^^^^^^^^^
 scene.pbrt:3:77: error: day 31 does not exist
- 3 | LightSource "sun" "float latitude" 98.1 "float longitude" 200 "string time" "2026-06-31T12:00Z"
-   |                                                                             ^^^^^^^^^^^^^^^^^^^
+ 3 | …" "float latitude" 98.1 "float longitude" 200 "string time" "2026-06-31T12:00Z"
+   |                                                              ^^^^^^^^^^^^^^^^^^^
 "#,
     );
 }
@@ -104,14 +104,18 @@ fn a_sun_below_the_horizon_lights_nothing() {
 LightSource "sky" "string model" "clear" "vector3 sundirection" [ 1 0 -1 ]
 LightSource "sun" "float latitude" 0 "float longitude" 0 "string time" "2026-03-20T00:00Z"
 LightSource "sky" "string model" "overcast" "vector3 sundirection" [ 1 0 -1 ]
+LightSource "sky" "string model" "bird-riordan" "vector3 sundirection" [ 0 1 -0.01 ]
 "#,
         r#"
 scene.pbrt:2:42: error: the sun stands below the horizon, at an elevation of -45.00 degrees
  2 | LightSource "sky" "string model" "clear" "vector3 sundirection" [ 1 0 -1 ]
    |                                          ^^^^^^^^^^^^^^^^^^^^^^
-scene.pbrt:3:58: error: the sun stands below the horizon, at an elevation of -87.93 degrees
+scene.pbrt:3:58: error: the sun stands below the horizon, at an elevation of -88.08 degrees
  3 | LightSource "sun" "float latitude" 0 "float longitude" 0 "string time" "2026-03-20T00:00Z"
    |                                                          ^^^^^^^^^^^^^
+scene.pbrt:5:49: error: the sun stands below the horizon, at an elevation of -0.57 degrees
+ 5 | LightSource "sky" "string model" "bird-riordan" "vector3 sundirection" [ 0 1 -0.01 ]
+   |                                                 ^^^^^^^^^^^^^^^^^^^^^^
 "#,
     );
 }
@@ -129,9 +133,9 @@ LightSource "sun" "vector3 sundirection" [ 0 0 0 ] "float angularradius" 45
 scene.pbrt:2:45: error: the amount is stated twice: by "illuminance" and by "zenithluminance"
  2 | LightSource "sky" "string model" "overcast" "float zenithluminance" 9000 "float illuminance" 20000
    |                                             ^^^^^^^^^^^^^^^^^^^^^^^
-scene.pbrt:2:74: the other statement
- 2 | LightSource "sky" "string model" "overcast" "float zenithluminance" 9000 "float illuminance" 20000
-   |                                                                          ^^^^^^^^^^^^^^^^^^^
+scene.pbrt:2:74: note: the other statement
+ 2 | …sky" "string model" "overcast" "float zenithluminance" 9000 "float illuminance" 20000
+   |                                                              ^^^^^^^^^^^^^^^^^^^
 scene.pbrt:3:45: error: parameter "up" is no direction: it has no length
  3 | LightSource "sky" "string model" "overcast" "vector3 up" [ 0 0 0 ]
    |                                             ^^^^^^^^^^^^
@@ -144,6 +148,34 @@ scene.pbrt:5:19: error: parameter "sundirection" is no direction: it has no leng
 scene.pbrt:5:52: error: parameter "angularradius" must be from 0.01 to 10, found 45
  5 | LightSource "sun" "vector3 sundirection" [ 0 0 0 ] "float angularradius" 45
    |                                                    ^^^^^^^^^^^^^^^^^^^^^
+"#,
+    );
+}
+
+#[test]
+fn a_model_of_the_atmosphere_has_its_own_spectrum_and_amount() {
+    expect(
+        r#"WorldBegin
+LightSource "sky" "string model" "bird-riordan" "vector3 sundirection" [ 0 0 1 ] "float illuminance" 5
+LightSource "sky" "string model" "bird-riordan" "vector3 sundirection" [ 0 0 1 ] "float turbidity" 3
+LightSource "sky" "string model" "bird-riordan"
+LightSource "sky" "string model" "uniform" "float ozone" 0.3
+"#,
+        r#"
+scene.pbrt:2:82: error: sky "bird-riordan" has a spectrum and an amount of its own
+ 2 | …ring model" "bird-riordan" "vector3 sundirection" [ 0 0 1 ] "float illuminance" 5
+   |                                                              ^^^^^^^^^^^^^^^^^^^
+  help: "float scale" is a factor on it
+scene.pbrt:3:82: error: parameter "turbidity" must be from 0 to 1, found 3
+ 3 | …ring model" "bird-riordan" "vector3 sundirection" [ 0 0 1 ] "float turbidity" 3
+   |                                                              ^^^^^^^^^^^^^^^^^
+scene.pbrt:4:34: error: sky "bird-riordan" is brighter near the sun, and nothing says where it stands
+ 4 | LightSource "sky" "string model" "bird-riordan"
+   |                                  ^^^^^^^^^^^^^^
+  help: give "vector3 sundirection", or "latitude", "longitude" and "time"
+scene.pbrt:5:44: error: light "sky" has no parameter "ozone"
+ 5 | LightSource "sky" "string model" "uniform" "float ozone" 0.3
+   |                                            ^^^^^^^^^^^^^
 "#,
     );
 }

@@ -21,8 +21,9 @@ pub use picture::EmissionPicture;
 pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
 pub use selection::{Chosen, LightSampler};
 pub use sky::{
-    Compass, GeneralSky, Ground, Handedness, Moment, MomentError, Place, SUN_ANGULAR_RADIUS, SkyIntegrals,
-    SkyLight, SkyLuminance, SkyModel, SkyPlacement, SolarPosition, SunLight,
+    Atmosphere, ClearSkyIrradiance, ClearSkySpectra, Compass, Daylight, GeneralSky, Ground, Handedness,
+    Moment, MomentError, Place, SUN_ANGULAR_RADIUS, SkyIntegrals, SkyLight, SkyLuminance, SkyModel,
+    SkyPlacement, SolarPosition, SunLight,
 };
 
 use bounds::EmitterBounds;

@@ -63,6 +63,9 @@ const GROUPS: [[usize; 2]; 15] = [
 ];
 
 impl GeneralSky {
+    /// The CIE clear sky, type 12.
+    pub const CLEAR: Self = Self { a: -1.0, b: -0.32, c: 10.0, d: -3.0, e: 0.45 };
+
     /// Type 1 (overcast, steep gradation) to 15 (white-blue, turbid, broad corona) of the standard; 12 is the CIE clear sky
     /// of low turbidity, 13 that of a polluted atmosphere. `None` for any other number.
     pub fn of_type(number: usize) -> Option<Self> {
@@ -214,6 +217,7 @@ mod tests {
                 }
             }
         }
+        assert_eq!(GeneralSky::of_type(12), Some(GeneralSky::CLEAR));
         assert_eq!((GeneralSky::of_type(0), GeneralSky::of_type(16)), (None, None));
     }
 

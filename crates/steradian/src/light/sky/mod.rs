@@ -1,5 +1,6 @@
 //! Skies and the sun.
 
+mod atmosphere;
 mod compass;
 mod dome;
 mod luminance;
@@ -7,6 +8,7 @@ mod moment;
 mod solar;
 mod sun;
 
+pub use atmosphere::{Atmosphere, ClearSkyIrradiance, ClearSkySpectra, Daylight};
 pub use compass::{Compass, Handedness};
 pub use dome::{Ground, SkyLight, SkyPlacement};
 pub use luminance::{GeneralSky, SkyIntegrals, SkyLuminance, SkyModel};

@@ -75,8 +75,11 @@ impl SolarPosition {
 
 /// By how much the air of the standard conditions raises what stands at a true elevation [°].
 fn refraction(true_elevation: f64) -> f64 {
-    // Below the horizon the formula has no meaning, and nothing is seen.
-    let h = true_elevation.max(-1.0);
+    // What stands deeper is not seen, and the formula is not meant for it.
+    if true_elevation < -1.0 {
+        return 0.0;
+    }
+    let h = true_elevation;
     1.02 / 60.0 / (h + 10.3 / (h + 5.11)).to_radians().tan()
 }
 
@@ -138,6 +141,6 @@ mod tests {
     fn refraction_on_the_horizon_is_half_a_degree() {
         // 34′ of the horizontal refraction raises a sun that is below by it to the horizon.
         assert!((refraction(-0.575) - 0.575).abs() < 0.02, "{}", refraction(-0.575));
-        assert!(refraction(90.0).abs() < 1e-3 && refraction(-40.0) < 1.0);
+        assert!(refraction(90.0).abs() < 1e-3 && refraction(-40.0) == 0.0);
     }
 }

@@ -76,6 +76,7 @@ pub fn compile_with_tables(
         }
     }
     lights.extend(desc.lights.iter().filter_map(|d| compiler.light(d)));
+    lights.extend(desc.lights.iter().filter_map(|d| compiler.companion(d)));
     let ambient = integrator::surroundings(&desc.integrator).and_then(|d| compiler.light(&d));
 
     let TextureCompiler { textures, spectra: _, diagnostics, .. } = textures;

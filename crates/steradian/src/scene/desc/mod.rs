@@ -25,7 +25,7 @@ pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface
 pub use options::{OptionsDesc, RenderingSpace};
 pub use sampler::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};
 pub use shape::{CurveBasis, CurveDesc, CurveKind, InstanceDesc, MeshDesc, ObjectDesc, ShapeDesc, ShapeKind};
-pub use sky::{HorizonDesc, SkyDesc, SunDesc, SunPlaceDesc, SunPositionDesc};
+pub use sky::{HorizonDesc, SkyDesc, SkyKindDesc, SunDesc, SunPlaceDesc, SunPositionDesc};
 pub use texture::{
     CheckerboardDomain, FloatParam, FloatTextureDesc, FloatTextureKind, ImageFilter, ImageTextureDesc,
     Mapping2d, NoiseDesc, SpectrumParam, SpectrumTextureDesc, SpectrumTextureKind, TextureDesc, TextureId,

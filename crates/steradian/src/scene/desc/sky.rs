@@ -1,23 +1,40 @@
 //! Skies and the sun as the scene states them.
 
 use super::value::SpectrumDesc;
-use crate::light::{Moment, Place, SkyModel};
+use crate::light::{Atmosphere, Moment, Place, SkyModel};
 use crate::math::Vec3;
 use crate::scene::source::Span;
 
 /// A sky.
 #[derive(Clone, Debug)]
 pub struct SkyDesc {
-    /// How its luminance varies.
-    pub model: SkyModel,
-    /// Its colour (the colour space's white), or the radiance of the zenith.
-    pub spectrum: SpectrumDesc,
+    /// Where its light comes from.
+    pub kind: SkyKindDesc,
     /// Where up and north are.
     pub horizon: HorizonDesc,
     /// Where the sun stands; there for every model that needs it.
     pub sun: Option<SunPlaceDesc>,
     /// Reflectance of the ground below the horizon, in [0, 1]; `None` for no ground.
     pub ground: Option<f32>,
+}
+
+/// The kinds of sky.
+#[derive(Clone, Debug)]
+pub enum SkyKindDesc {
+    /// A distribution of luminance, of any spectrum and amount.
+    Distribution {
+        /// How its luminance varies.
+        model: SkyModel,
+        /// Its colour (the colour space's white), or the radiance of the zenith.
+        spectrum: SpectrumDesc,
+    },
+    /// The CIE clear sky with the absolute spectra of a cloudless atmosphere.
+    Cloudless {
+        /// What the light goes through; its ground is also that of the sky, where it has one.
+        atmosphere: Atmosphere,
+        /// Angular radius of the sun's disk [degrees], in [0.01, 10]; `None` for the sky alone.
+        sun: Option<f32>,
+    },
 }
 
 /// The sun's disk.

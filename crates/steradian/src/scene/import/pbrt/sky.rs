@@ -1,31 +1,61 @@
 //! `LightSource "sky"` and `LightSource "sun"`, our extensions.
 
 use super::args::Args;
-use crate::light::{GeneralSky, Moment, Place, SUN_ANGULAR_RADIUS, SkyModel};
+use crate::light::{Atmosphere, GeneralSky, Moment, Place, SUN_ANGULAR_RADIUS, SkyModel};
 use crate::math::Vec3;
-use crate::scene::desc::{HorizonDesc, LightKind, SkyDesc, SunDesc, SunPlaceDesc, SunPositionDesc};
+use crate::scene::desc::{
+    HorizonDesc, LightKind, SkyDesc, SkyKindDesc, SunDesc, SunPlaceDesc, SunPositionDesc,
+};
 use crate::scene::diagnostic::{Diagnostic, nearest};
 use crate::scene::text::Text;
 
-const MODELS: [&str; 19] = [
-    "cie-1", "cie-2", "cie-3", "cie-4", "cie-5", "cie-6", "cie-7", "cie-8", "cie-9", "cie-10", "cie-11",
-    "cie-12", "cie-13", "cie-14", "cie-15", "cie-16", "overcast", "clear", "uniform",
+const MODELS: [&str; 20] = [
+    "cie-1",
+    "cie-2",
+    "cie-3",
+    "cie-4",
+    "cie-5",
+    "cie-6",
+    "cie-7",
+    "cie-8",
+    "cie-9",
+    "cie-10",
+    "cie-11",
+    "cie-12",
+    "cie-13",
+    "cie-14",
+    "cie-15",
+    "cie-16",
+    "overcast",
+    "clear",
+    "uniform",
+    BIRD_RIORDAN,
 ];
+const BIRD_RIORDAN: &str = "bird-riordan";
 
 /// Reads a sky; `None` when something needed is missing or unknown (and reported).
 pub(super) fn sky(args: &mut Args<'_>) -> Option<LightKind> {
     let model = args.text("model");
     let horizon = horizon(args);
     let sun = sun_place(args);
-    let spectrum = args.light_spectrum("L");
     let ground = args.float("groundreflectance", 0.0);
     args.demand_range("groundreflectance", ground, 0.0, 1.0);
     let Some(model) = model else {
         args.missing("model");
         return None;
     };
-    let known = known_model(&model, args)?;
-    if known.needs_sun() && sun.is_none() {
+    let kind = match model.value.as_str() {
+        BIRD_RIORDAN => cloudless(args, ground),
+        _ => SkyKindDesc::Distribution {
+            spectrum: args.light_spectrum("L"),
+            model: known_model(&model, args)?,
+        },
+    };
+    let needs_sun = match &kind {
+        SkyKindDesc::Distribution { model, .. } => model.needs_sun(),
+        SkyKindDesc::Cloudless { .. } => true,
+    };
+    if needs_sun && sun.is_none() {
         if !gives_sun(args) {
             let message =
                 format!("sky \"{}\" is brighter near the sun, and nothing says where it stands", model.value);
@@ -37,7 +67,7 @@ pub(super) fn sky(args: &mut Args<'_>) -> Option<LightKind> {
         return None;
     }
     let ground = (ground > 0.0).then_some(ground);
-    Some(LightKind::Sky(Box::new(SkyDesc { model: known, spectrum, horizon, sun, ground })))
+    Some(LightKind::Sky(Box::new(SkyDesc { kind, horizon, sun, ground })))
 }
 
 /// Reads a sun; `None` when nothing says where it stands (which is reported).
@@ -45,8 +75,7 @@ pub(super) fn sun(args: &mut Args<'_>) -> Option<LightKind> {
     let horizon = horizon(args);
     let place = sun_place(args);
     let irradiance = args.light_spectrum("L");
-    let angular_radius = args.float("angularradius", SUN_ANGULAR_RADIUS);
-    args.demand_range("angularradius", angular_radius, 0.01, 10.0);
+    let angular_radius = angular_radius(args);
     if place.is_none() && !gives_sun(args) {
         let d = Diagnostic::error(args.span, "nothing says where the sun stands");
         args.ctx
@@ -69,10 +98,46 @@ fn known_model(name: &Text, args: &mut Args<'_>) -> Option<SkyModel> {
         let d = Diagnostic::error(name.span, format!("unknown sky model \"{}\"", name.value));
         args.ctx.diagnostics.push(match nearest(&name.value, MODELS) {
             Some(n) => d.with_help(format!("did you mean \"{n}\"?")),
-            None => d.with_help("known are cie-1 to cie-16, overcast, clear and uniform"),
+            None => d.with_help("known are cie-1 to cie-16, overcast, clear, uniform and bird-riordan"),
         });
     }
     known.map(SkyModel::General)
+}
+
+/// The parameters of the model of Bird and Riordan.
+fn cloudless(args: &mut Args<'_>, ground: f32) -> SkyKindDesc {
+    for name in ["L", "unit", "illuminance", "irradiance", "zenithluminance"] {
+        if args.has(name) {
+            let span = args.span_of(name);
+            let message = format!("sky \"{BIRD_RIORDAN}\" has a spectrum and an amount of its own");
+            let d = Diagnostic::error(span, message);
+            args.ctx.diagnostics.push(d.with_help("\"float scale\" is a factor on it"));
+        }
+    }
+    // Asked for, so that it is not called unknown as well.
+    args.light_spectrum("L");
+    let default = Atmosphere::default();
+    let mut within = |name: &'static str, default: f64, min: f32, max: f32| {
+        let v = args.float(name, default as f32);
+        args.demand_range(name, v, min, max);
+        f64::from(v)
+    };
+    let atmosphere = Atmosphere {
+        turbidity: within("turbidity", default.turbidity, 0.0, 1.0),
+        angstrom_exponent: within("angstrom", default.angstrom_exponent, 0.0, 3.0),
+        water: within("watervapor", default.water, 0.0, 10.0),
+        ozone: within("ozone", default.ozone, 0.0, 1.0),
+        pressure: within("pressure", default.pressure, 30_000.0, 110_000.0),
+        ground_reflectance: if ground > 0.0 { f64::from(ground) } else { default.ground_reflectance },
+    };
+    let radius = angular_radius(args);
+    SkyKindDesc::Cloudless { atmosphere, sun: args.bool("sun", true).then_some(radius) }
+}
+
+fn angular_radius(args: &mut Args<'_>) -> f32 {
+    let radius = args.float("angularradius", SUN_ANGULAR_RADIUS);
+    args.demand_range("angularradius", radius, 0.01, 10.0);
+    radius
 }
 
 fn horizon(args: &mut Args<'_>) -> HorizonDesc {
