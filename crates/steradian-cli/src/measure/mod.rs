@@ -1,5 +1,6 @@
 //! `steradian measure`: virtual instruments.
 
+mod color;
 mod common;
 mod series;
 
@@ -10,6 +11,8 @@ use steradian::render::CancelToken;
 /// The instruments.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Measure {
+    /// Colour of light and of things: tristimulus values, colour temperature, colour rendering
+    Color(color::Color),
     /// Carry out the measurements that a job file lists
     Series(series::Series),
 }
@@ -23,6 +26,7 @@ pub(crate) fn run(measure: &Measure) -> Result<(), Failure> {
 
 fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
     match measure {
+        Measure::Color(color) => color::run(color, cancel),
         Measure::Series(series) => series::run(series, cancel),
     }
 }

@@ -1,6 +1,7 @@
 //! Colour: tristimulus values, RGB spaces, and the spectra that stand for RGB triples.
 
 pub mod adaptation;
+pub mod colorimetry;
 mod fit;
 pub mod space;
 pub mod table;

@@ -12,6 +12,7 @@ pub mod frame_png;
 pub mod compare;
 pub mod flip;
 pub mod heat;
+pub mod radiance;
 
 pub use codec::decode;
 pub use compare::{Comparison, Outliers, compare};
@@ -24,4 +25,5 @@ pub use frame_png::{FrameFormat, write_frame, write_pfm, write_png};
 pub use heat::{heat_color, heat_map};
 pub use picture::{Image, Layout};
 pub use pyramid::Pyramid;
+pub use radiance::{FisheyeView, RadianceHeader, write_radiance};
 pub use wrap::{AxisWrap, Wrap};

@@ -1,6 +1,8 @@
 //! The light laboratory: the scene's own materials and lights under virtual instruments.
 
 pub mod meters;
+pub mod color;
+pub mod glare;
 pub mod plot;
 pub mod portrait;
 pub mod precision;

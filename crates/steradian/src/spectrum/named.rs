@@ -53,6 +53,27 @@ const PBRT: &[(&str, &str)] = tables![
     "illum-acesD60",
 ];
 
+/// More light sources of the CIE, with the same normalisation.
+const LIGHTS: &[(&str, &str)] = tables![
+    "stdillum-C",
+    "stdillum-D55",
+    "stdillum-D75",
+    "stdillum-HP1",
+    "stdillum-HP2",
+    "stdillum-HP3",
+    "stdillum-HP4",
+    "stdillum-HP5",
+    "stdillum-LED-B1",
+    "stdillum-LED-B2",
+    "stdillum-LED-B3",
+    "stdillum-LED-B4",
+    "stdillum-LED-B5",
+    "stdillum-LED-BH1",
+    "stdillum-LED-RGB1",
+    "stdillum-LED-V1",
+    "stdillum-LED-V2",
+];
+
 /// Ours. A metal or semiconductor has `-eta` and `-k`; a transparent medium has its index under its own name and, where
 /// its absorption is known, `-k`.
 const MEASURED: &[(&str, &str)] = tables![
@@ -198,15 +219,15 @@ const ALIASES: &[(&str, &str)] =
 /// The built-in spectrum called `name`; `None` if there is none.
 ///
 /// Indices of refraction and extinction coefficients are tables; those of the glasses follow the makers'
-/// dispersion formulas. Illuminants are normalised to ∫ l ȳ dλ = 106.856895 nm, that is Y = 1. Those of pbrt are held at
-/// their end values as far as 360 and 830 nm, pbrt's rule (its fluorescent lamps end at 780 nm); ours reach that far by
+/// dispersion formulas. Illuminants are normalised to ∫ l ȳ dλ = 106.856895 nm, that is Y = 1. Those of pbrt and illuminants are held at
+/// their end values as far as 360 and 830 nm, pbrt's rule (fluorescent lamps end at 780 nm); the other ones of ours reach that far by
 /// themselves, and end where their data end ([`Spectrum::range`]).
 pub fn named(name: &str) -> Option<Spectrum> {
     let name = canonical(name);
     if let Some((_, text)) = MEASURED.iter().find(|t| t.0 == name) {
         return spd::parse(text).ok().map(Spectrum::Tabulated);
     }
-    let text = PBRT.iter().find(|t| t.0 == name)?.1;
+    let text = PBRT.iter().chain(LIGHTS).find(|t| t.0 == name)?.1;
     let table = spd::parse(text).ok()?.held_to(LAMBDA_MIN, LAMBDA_MAX);
     if !(name.starts_with("stdillum-") || name.starts_with("illum-")) {
         return Some(Spectrum::Tabulated(table));
@@ -225,7 +246,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 }
 
 fn tables() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
-    PBRT.iter().chain(MEASURED)
+    PBRT.iter().chain(LIGHTS).chain(MEASURED)
 }
 
 /// Where a built-in spectrum comes from.
@@ -264,7 +285,7 @@ mod tests {
 
     #[test]
     fn every_name_has_data_over_the_visible_range() {
-        assert_eq!(names().count(), 7 + 14 + 15 + 1 + 3 + MEASURED.len());
+        assert_eq!(names().count(), 7 + 14 + 15 + 1 + LIGHTS.len() + 3 + MEASURED.len());
         for name in names() {
             let (lo, hi) = named(name).unwrap_or_else(|| panic!("{name}")).range().unwrap();
             assert!(lo <= 360.0 && hi >= 830.0, "{name}: {lo}..{hi}");

@@ -1,0 +1,127 @@
+//! `steradian measure color`: the colour of light and of things.
+
+use super::common::{Desk, Outputs};
+use crate::Failure;
+use crate::output::reason;
+use clap::Args;
+use std::io::Read as _;
+use std::path::Path;
+use steradian::color::colorimetry::Xy;
+use steradian::lab::color::{Choice, SpectralData, Spot, diagram, light, light_table, object, object_table};
+use steradian::render::CancelToken;
+use steradian::scene::nearest;
+use steradian::spectrum::named::{self, named};
+
+#[derive(Args, Clone, Debug)]
+#[command(after_help = NOTES)]
+pub(crate) struct Color {
+    /// Spectrum of a light: a built-in name, or a file (- for standard input); may be repeated
+    #[arg(
+        long,
+        value_name = "NAME|FILE",
+        required_unless_present = "reflectance",
+        conflicts_with = "reflectance"
+    )]
+    spectrum: Vec<String>,
+    /// Reflectance (or transmittance) of a thing: a file (- for standard input); may be repeated
+    #[arg(long, value_name = "FILE")]
+    reflectance: Vec<String>,
+    /// What the thing is seen under
+    #[arg(long, value_name = "NAME|FILE", default_value = "stdillum-D65")]
+    illuminant: String,
+    /// Column of a table of several quantities that is meant [default: the first after the wavelength]
+    #[arg(long, value_name = "NAME")]
+    column: Option<String>,
+    /// Rows of a table of several spectra that are meant, such as `point=2`
+    #[arg(long, value_name = "COLUMN=WORD", value_parser = parse_rows)]
+    rows: Option<Rows>,
+    #[command(flatten)]
+    outputs: Outputs,
+}
+
+const NOTES: &str = "\
+Light: X, Y, Z, chromaticity, correlated colour temperature with Duv, colour rendering indices Ra and R1-R14
+(CIE 13.3). Things: X, Y, Z, chromaticity and CIE L*a*b* under the illuminant.
+
+Files hold a wavelength [nm] and a value in each row, and perhaps the half-width of its interval; or they are CSV with
+headings such as `wavelength [nm],spectral irradiance [W·m⁻²·nm⁻¹]`, as `steradian measure` writes them. With such a
+unit, Y is in lx (cd·m⁻², cd, lm), else 100. Intervals are carried on to every result.
+
+Examples:
+  steradian measure color --spectrum stdillum-F11
+  steradian measure color --spectrum stdillum-A --spectrum stdillum-LED-B1 -o lamps.csv --plot lamps.svg
+  printf '400 0.1\\n500 0.3\\n700 0.8\\n' | steradian measure color --reflectance - --illuminant stdillum-D50";
+
+/// A column and what rows have in it.
+#[derive(Clone, Debug)]
+struct Rows {
+    column: String,
+    word: String,
+}
+
+fn parse_rows(text: &str) -> Result<Rows, String> {
+    let (column, word) = text.split_once('=').ok_or("expected a column and a word, such as point=2")?;
+    Ok(Rows { column: column.trim().to_owned(), word: word.trim().to_owned() })
+}
+
+pub(crate) fn run(color: &Color, cancel: &CancelToken) -> Result<(), Failure> {
+    let desk = Desk::new(&color.outputs)?;
+    if color.reflectance.is_empty() {
+        let spectra = color.spectrum.iter().map(|s| color.spectrum(s)).collect::<Result<Vec<_>, _>>()?;
+        let lights: Vec<_> = spectra.iter().map(|s| (s, light(s))).collect();
+        let spots =
+            lights.iter().filter_map(|(data, l)| spot(&data.name, l.chromaticity)).collect::<Vec<_>>();
+        let title = "chromaticity, CIE 1931";
+        return desk.hand_out(&light_table(&lights), || diagram(title, &spots), cancel);
+    }
+    let illuminant = color.spectrum(&color.illuminant)?;
+    let things = color.reflectance.iter().map(|s| color.file(s)).collect::<Result<Vec<_>, _>>()?;
+    let objects: Vec<_> = things.iter().map(|s| (s, object(s, &illuminant))).collect();
+    let mut spots: Vec<_> = objects.iter().filter_map(|(data, o)| spot(&data.name, o.chromaticity)).collect();
+    spots.extend(spot(&illuminant.name, light(&illuminant).chromaticity));
+    let title = format!("chromaticity under {}, CIE 1931", illuminant.name);
+    desk.hand_out(&object_table(&objects, &illuminant.name), || diagram(&title, &spots), cancel)
+}
+
+fn spot(name: &str, chromaticity: Option<[steradian::units::Estimate; 4]>) -> Option<Spot> {
+    let [x, y, _, _] = chromaticity?;
+    let at = Xy { x: x.value, y: y.value };
+    Some(Spot { name: name.to_owned(), at, half_widths: [x.half_width, y.half_width] })
+}
+
+impl Color {
+    /// A built-in spectrum, or one from a file.
+    fn spectrum(&self, name: &str) -> Result<SpectralData, String> {
+        match named(name) {
+            Some(spectrum) => Ok(SpectralData::of(name, &spectrum)),
+            None => self.file(name),
+        }
+    }
+
+    fn file(&self, name: &str) -> Result<SpectralData, String> {
+        let text = if name == "-" {
+            let mut text = String::new();
+            std::io::stdin()
+                .read_to_string(&mut text)
+                .map_err(|e| format!("cannot read standard input: {}", reason(&e)))?;
+            text
+        } else {
+            let path = Path::new(name);
+            std::fs::read_to_string(path).map_err(|e| match e.kind() {
+                std::io::ErrorKind::NotFound => unknown(name),
+                std::io::ErrorKind::InvalidData => format!("{name} is not a text file"),
+                _ => format!("cannot read {name}: {}", reason(&e)),
+            })?
+        };
+        let rows = self.rows.as_ref().map(|r| [r.column.as_str(), r.word.as_str()]);
+        let choice = Choice { column: self.column.as_deref(), rows };
+        let shown = if name == "-" { "(standard input)" } else { name };
+        SpectralData::parse(shown, &text, choice).map_err(|e| format!("{shown}: {e}"))
+    }
+}
+
+fn unknown(name: &str) -> String {
+    let hint = nearest(name, named::names());
+    let hint = hint.map_or_else(String::new, |n| format!("; did you mean {n}?"));
+    format!("there is neither a built-in spectrum nor a file called {name}{hint}")
+}

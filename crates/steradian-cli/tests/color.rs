@@ -1,0 +1,90 @@
+//! `steradian measure color`: published numbers, intervals, files that are read back, faults that are named.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "tests fail by panicking")]
+
+mod support;
+
+use serde_json::Value;
+use support::desk::Desk;
+
+/// The value of a quantity in the JSON file `name`, in the column `column`.
+fn value(json: &Value, quantity: &str, column: &str) -> f64 {
+    let rows = json["rows"].as_array().unwrap();
+    let row = rows.iter().find(|r| r["quantity"] == quantity).unwrap();
+    row[column]["value"].as_f64().unwrap()
+}
+
+/// colour-science 0.4.7 for chromaticity and Ra.
+#[test]
+fn illuminants_read_as_published() {
+    let desk = Desk::new("");
+    let arguments = ["measure", "color", "--spectrum", "stdillum-F11", "--spectrum", "stdillum-LED-B1", "-q"];
+    desk.run(&[&arguments[..], &["-o", "lamps.json", "-o", "lamps.csv"]].concat()).succeeded();
+    let json = desk.json("lamps.json");
+    for (name, x, y, kelvin, ra) in [
+        ("stdillum-F11", 0.38052, 0.37712, 4000.7, 82.86),
+        ("stdillum-LED-B1", 0.45592, 0.40790, 2734.7, 81.79),
+    ] {
+        assert!((value(&json, "x", name) - x).abs() < 1e-5 && (value(&json, "y", name) - y).abs() < 1e-5);
+        assert!((value(&json, "correlated colour temperature", name) - kelvin).abs() < 0.3);
+        assert!((value(&json, "Ra", name) - ra).abs() < 0.01);
+    }
+    let csv = desk.text("lamps.csv");
+    assert!(csv.contains("quantity,unit,stdillum-F11,stdillum-F11 ±,"), "{csv}");
+    assert!(csv.contains("\ncorrelated colour temperature,K,4000."), "{csv}");
+}
+
+#[test]
+fn the_example_of_the_help_works_and_draws() {
+    let desk = Desk::new("");
+    let input = "400 0.1\n500 0.3\n700 0.8\n";
+    let said = desk.run_with(
+        &["measure", "color", "--reflectance", "-", "--illuminant", "stdillum-D50", "--plot", "thing.svg"],
+        input,
+    );
+    let out = said.succeeded().out;
+    assert!(out.contains("colour under stdillum-D50") && out.contains("L*"), "{out}");
+    let svg = desk.text("thing.svg");
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let texts: Vec<_> = document.descendants().filter_map(|n| n.text()).collect();
+    assert!(texts.contains(&"x [1]") && texts.contains(&"stdillum-D50"), "{texts:?}");
+}
+
+#[test]
+fn intervals_and_units_of_a_table_reach_the_result() {
+    let desk = Desk::new("");
+    let mut table = "# spectral irradiance\n# confidence: 95 %, statistical only\n\
+                     point,wavelength [nm],spectral irradiance [W·m⁻²·nm⁻¹],spectral irradiance ± [W·m⁻²·nm⁻¹]\n"
+        .to_owned();
+    for (point, level) in [(1, 0.001), (2, 0.002)] {
+        for l in (380..=780).step_by(10) {
+            table.push_str(&format!("{point},{l},{level},{}\n", 0.02 * level));
+        }
+    }
+    desk.put("lux.csv", &table);
+    let arguments = ["measure", "color", "--spectrum", "lux.csv", "--rows", "point=2"];
+    desk.run(&[&arguments[..], &["-o", "color.json", "-q"]].concat()).succeeded();
+    let json = desk.json("color.json");
+    // Held to 360 and 830 nm: 0.002 · 683.002 · 106.857 lx.
+    let illuminance = value(&json, "Y", "value");
+    assert!((illuminance - 145.968).abs() < 0.01, "{illuminance}");
+    let row = json["rows"].as_array().unwrap().iter().find(|r| r["quantity"] == "Y").unwrap();
+    let half = row["value"]["half_width"].as_f64().unwrap();
+    assert!(row["unit"] == "lx" && half > 0.002 * illuminance && half < 0.02 * illuminance, "{row}");
+    let facts = json["facts"].to_string();
+    assert!(facts.contains("95 %, statistical only; rows taken as independent"), "{facts}");
+    // Both points at once are no spectrum.
+    let said = desk.run(&["measure", "color", "--spectrum", "lux.csv"]);
+    said.failed("error: lux.csv: line 45: wavelength 380 nm follows 780 nm: choose the rows of one spectrum");
+}
+
+#[test]
+fn faults_are_named() {
+    let desk = Desk::new("");
+    let said = desk.run(&["measure", "color", "--spectrum", "stdillum-D56"]);
+    assert!(said.code == Some(1) && said.err.contains("did you mean stdillum-D"), "{said:?}");
+    desk.put("bad.spd", "400 1\n410 one\n");
+    let said = desk.run(&["measure", "color", "--spectrum", "bad.spd"]);
+    said.failed("error: bad.spd: line 2: `one` is not a number");
+    desk.run(&["measure", "color"]).refused("--spectrum");
+    desk.run(&["measure", "color", "--spectrum", "x", "--rows", "point"]).refused("point=2");
+}
