@@ -46,6 +46,8 @@ pub(crate) enum Command {
     /// Put a material or a scene under a virtual instrument
     #[command(subcommand)]
     Measure(crate::measure::Measure),
+    /// Write a lighting report: illuminance on grids, uniformity, daylight factors, glare, luminance pictures
+    Report(crate::report::Arguments),
 }
 
 #[derive(Args, Debug)]

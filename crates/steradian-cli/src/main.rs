@@ -13,6 +13,7 @@ mod plot;
 mod progress;
 mod raster;
 mod render;
+mod report;
 mod sheet;
 mod verify;
 
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
         Command::Bsdf(arguments) => bsdf::run(&arguments),
         Command::Plot(arguments) => plot::run(&arguments),
         Command::Measure(measure) => measure::run(&measure),
+        Command::Report(arguments) => report::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

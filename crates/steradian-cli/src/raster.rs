@@ -1,7 +1,11 @@
 //! Drawings as PNG pictures.
 
+use steradian::color::transfer::srgb_encode;
 use steradian::lab::plot::{Anchor, Drawing, Ink, Mark, Run, Text};
-use tiny_skia::{Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+use steradian::lab::report::Backdrop;
+use tiny_skia::{
+    Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
+};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// DejaVu Sans, reduced; its licence lies beside it.
@@ -12,10 +16,27 @@ const SCALE: f32 = 2.0;
 
 /// The drawing as the bytes of a PNG file.
 pub(crate) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
+    png_over(drawing, None)
+}
+
+/// The drawing on top of a picture.
+pub(crate) fn png_over(drawing: &Drawing, backdrop: Option<&Backdrop>) -> Result<Vec<u8>, String> {
     let size = |x: f64| (x as f32 * SCALE).ceil() as u32;
     let mut map = Pixmap::new(size(drawing.width), size(drawing.height))
         .ok_or_else(|| "the drawing is too large for a picture".to_owned())?;
     map.fill(Color::WHITE);
+    if let Some(backdrop) = backdrop {
+        let mut picture = Pixmap::new(backdrop.side, backdrop.side)
+            .ok_or_else(|| "the picture is too large to be drawn".to_owned())?;
+        for (out, rgb) in picture.data_mut().chunks_exact_mut(4).zip(&backdrop.pixels) {
+            let [r, g, b] = quantized(*rgb);
+            out.copy_from_slice(&[r, g, b, 255]);
+        }
+        let grown = backdrop.size as f32 / backdrop.side as f32;
+        let place =
+            scale().pre_translate(backdrop.at[0] as f32, backdrop.at[1] as f32).pre_scale(grown, grown);
+        map.draw_pixmap(0, 0, picture.as_ref(), &PixmapPaint::default(), place, None);
+    }
     let face = Face::parse(FONT, 0).map_err(|e| format!("the built-in font is broken: {e}"))?;
     for mark in &drawing.marks {
         match mark {
@@ -114,16 +135,30 @@ impl OutlineBuilder for Pen {
     }
 }
 
+/// A picture without a drawing as the bytes of a PNG file, for an `<image>` element.
+pub(crate) fn backdrop_png(backdrop: &Backdrop) -> Result<Vec<u8>, String> {
+    let rgb: Vec<u8> = backdrop.pixels.iter().flat_map(|p| quantized(*p)).collect();
+    encode_rgb(&rgb, [backdrop.side, backdrop.side]).map_err(|e| format!("cannot write the picture: {e}"))
+}
+
+fn quantized(rgb: [f32; 3]) -> [u8; 3] {
+    rgb.map(|c| (srgb_encode(c.clamp(0.0, 1.0)) * 255.0).round() as u8)
+}
+
 /// On white paper every pixel is opaque, so that the alpha channel has nothing to say.
 fn encode(map: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     let rgb: Vec<u8> = map.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    encode_rgb(&rgb, [map.width(), map.height()])
+}
+
+fn encode_rgb(rgb: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, png::EncodingError> {
     let mut out = Vec::new();
-    let mut encoder = png::Encoder::new(&mut out, map.width(), map.height());
+    let mut encoder = png::Encoder::new(&mut out, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&rgb)?;
+    writer.write_image_data(rgb)?;
     writer.finish()?;
     Ok(out)
 }

@@ -52,7 +52,7 @@ fn the_example_of_the_help_works_and_draws() {
 #[test]
 fn intervals_and_units_of_a_table_reach_the_result() {
     let desk = Desk::new("");
-    let mut table = "# spectral irradiance\n# confidence: 95 %, statistical only\n\
+    let mut table = "# spectral irradiance\n# intervals: 95 % confidence, statistical only\n\
                      point,wavelength [nm],spectral irradiance [W·m⁻²·nm⁻¹],spectral irradiance ± [W·m⁻²·nm⁻¹]\n"
         .to_owned();
     for (point, level) in [(1, 0.001), (2, 0.002)] {
@@ -71,7 +71,7 @@ fn intervals_and_units_of_a_table_reach_the_result() {
     let half = row["value"]["half_width"].as_f64().unwrap();
     assert!(row["unit"] == "lx" && half > 0.002 * illuminance && half < 0.02 * illuminance, "{row}");
     let facts = json["facts"].to_string();
-    assert!(facts.contains("95 %, statistical only; rows taken as independent"), "{facts}");
+    assert!(facts.contains("95 % confidence, statistical only; rows taken as independent"), "{facts}");
     // Both points at once are no spectrum.
     let said = desk.run(&["measure", "color", "--spectrum", "lux.csv"]);
     said.failed("error: lux.csv: line 45: wavelength 380 nm follows 780 nm: choose the rows of one spectrum");

@@ -1,7 +1,7 @@
 //! `steradian measure`: virtual instruments.
 
 mod color;
-mod common;
+pub(crate) mod common;
 mod series;
 
 use crate::{Failure, interrupt};

@@ -12,8 +12,8 @@ use std::io::Write;
 /// Luminous efficacy of Radiance's white [lm/W]: a convention, not a measurement.
 pub const WHITE_EFFICACY: f64 = 179.0;
 
-/// Chromaticities x, y of red, green, blue and white.
-const PRIMARIES: [[f64; 2]; 4] = [[0.64, 0.33], [0.29, 0.60], [0.15, 0.06], [1.0 / 3.0, 1.0 / 3.0]];
+/// Chromaticities x, y of red, green, blue and white, to Radiance's digits.
+const PRIMARIES: [[f64; 2]; 4] = [[0.64, 0.33], [0.29, 0.60], [0.15, 0.06], [0.3333, 0.3333]];
 
 /// A view of half of all directions, in which the distance from the middle is proportional to the angle: `-vta` over 180°.
 ///
@@ -40,7 +40,7 @@ pub struct RadianceHeader {
 /// Writes tristimulus values [cd/m²], rows from the top, run-length encoded.
 ///
 /// Colours outside of the triangle of the primaries move onto its side and keep their luminance. What is negative or not a number is
-/// black. Components have 8 bits and share an exponent: luminances are right to 0.4 % each and without bias on average.
+/// black. Components have 8 bits and share an exponent: luminances are right to about half a percent each and without bias on average.
 ///
 /// # Errors
 /// When the number of values does not fit the size, or writing fails.
@@ -204,11 +204,12 @@ mod tests {
             let half = f64::from(rgb.max_element()).log2().floor().exp2() / 256.0;
             let read = luminance(rgb.to_array()) + WHITE_EFFICACY * half;
             let relative = read / f64::from(xyz.0.y) - 1.0;
-            assert!(relative.abs() < 4e-3, "{xyz:?}: {read}");
+            // The largest component may be red, of which Y has less.
+            assert!(relative.abs() < 6e-3, "{xyz:?}: {read}");
             bias += relative / values.len() as f64;
         }
-        // 1280 errors within ±0.4 %: the mean of unbiased ones has a standard error below 6e-5.
-        assert!(bias.abs() < 2.4e-4, "{bias}");
+        // 1280 errors within ±0.6 %: the mean of unbiased ones has a standard error below 1e-4; α = 1e-4.
+        assert!(bias.abs() < 4e-4, "{bias}");
     }
 
     #[test]
@@ -228,9 +229,12 @@ mod tests {
     fn white_of_179_candelas_is_one_watt() {
         let to_rgb = rgb_from_xyz();
         let luminances = to_rgb.inverse().row(1);
-        assert!((luminances - DVec3::new(0.265_074, 0.670_115, 0.064_811)).length() < 2e-6, "{luminances}");
+        assert!(
+            (luminances - DVec3::new(0.265_074_126, 0.670_114_631, 0.064_811_243)).length() < 1e-8,
+            "{luminances}"
+        );
         let one = rgb(&to_rgb, Xyz::new(179.0, 179.0, 179.0));
-        assert!(one.iter().all(|c| (c - 1.0).abs() < 1e-9), "{one:?}");
+        assert!(one.iter().all(|c| (c - 1.0).abs() < 1e-3), "{one:?}");
         assert_eq!(rgbe([1.0, 0.5, 0.0]), [128, 64, 0, 129]);
     }
 

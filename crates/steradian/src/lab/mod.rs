@@ -1,13 +1,14 @@
 //! The light laboratory: the scene's own materials and lights under virtual instruments.
 
-pub mod meters;
 pub mod color;
 pub mod glare;
+pub mod meters;
 pub mod plot;
 pub mod portrait;
 pub mod precision;
 pub mod preview;
 pub mod probe;
+pub mod report;
 pub mod session;
 pub mod subject;
 pub mod table;

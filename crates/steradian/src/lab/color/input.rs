@@ -113,7 +113,7 @@ impl SpectralData {
         let mut begun = false;
         for (index, content) in text.lines().enumerate() {
             let line = index + 1;
-            if let Some(level) = content.strip_prefix("# confidence:") {
+            if let Some(level) = content.strip_prefix("# intervals:") {
                 data.confidence = Some(level.trim().to_owned());
             }
             let content = content.trim_start_matches('\u{feff}');
@@ -289,7 +289,7 @@ mod tests {
                 Column::new("spectral irradiance", "W·m⁻²·nm⁻¹"),
             ],
         );
-        table.fact("confidence", "95 %, statistical only");
+        table.fact("intervals", "95 % confidence, statistical only");
         for x in [0.5, 1.5] {
             for l in [400.0, 500.0, 600.0] {
                 let e = Estimate { value: l * x, half_width: 0.5 };
@@ -302,7 +302,7 @@ mod tests {
         assert_eq!(data.wavelengths, [400.0, 500.0, 600.0]);
         assert_eq!(data.values[2], Estimate { value: 900.0, half_width: 0.5 });
         assert_eq!(data.unit.as_deref(), Some("W·m⁻²·nm⁻¹"));
-        assert_eq!(data.confidence.as_deref(), Some("95 %, statistical only"));
+        assert_eq!(data.confidence.as_deref(), Some("95 % confidence, statistical only"));
         assert!(matches!(parse(&text), Err(SpectrumError::NotIncreasing { line: 7, .. })));
         let choice = Choice { column: Some("flux"), rows: None };
         let missing = SpectralData::parse("lux.csv", &text, choice);

@@ -333,7 +333,7 @@ fn describe(table: &mut Table, data: &SpectralData, extent: &Extent) {
 }
 
 fn level<'a>(table: &mut Table, all: impl Iterator<Item = (&'a SpectralData, &'a Extent)>) {
-    for (data, extent) in all.filter(|(_, e)| e.has_intervals) {
+    for (data, _) in all.filter(|(_, extent)| extent.has_intervals) {
         let level = data.confidence.as_deref().unwrap_or("as in the file");
         let text = format!("{level}; rows taken as independent, carried on to first order");
         table.fact(format!("intervals of {}", data.name), text);

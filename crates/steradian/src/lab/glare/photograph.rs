@@ -72,7 +72,8 @@ pub fn take(
     let (point, _) = eye.in_render_space(job, [0.0, 0.0, 1.0])?;
     // With an exposure of one, whose values are cd/m². It cannot fail then.
     let sensor = Sensor::new(SensorSettings::default(), &ColorSpace::new(job.film.color_space)).ok()?;
-    let shutter = job.scene.camera().shutter();
+    // As all instruments: at the moment when the shutter opens.
+    let time = job.scene.camera().shutter()[0];
     let mut rows: Vec<Row> = (0..side)
         .map(|y| Row {
             y,
@@ -105,10 +106,8 @@ pub fn take(
                         sampler.start([x as i32, row.y as i32], index);
                         let place = sampler.next_pixel_2d();
                         let mut w = Wavelengths::sample_visible(sampler.next_1d());
-                        let u_time = sampler.next_1d();
                         let Some(local) = inside(fisheye, x, row.y, place) else { continue };
                         let Some((_, direction)) = eye.in_render_space(job, local) else { continue };
-                        let time = shutter[0] + (shutter[1] - shutter[0]) * u_time;
                         let ray = Ray { o: point, d: *direction, time };
                         let light = integrator.radiance(&job.scene, ray, &mut w, &mut sampler, tally, None);
                         if light.is_finite() {

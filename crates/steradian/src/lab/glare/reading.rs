@@ -8,7 +8,7 @@ use crate::lab::Precision;
 use crate::units::{Estimate, Illuminance, Luminance};
 
 /// Readings of a picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct GlareReading {
     /// Vertical illuminance at the eye.
     pub vertical_illuminance: Illuminance,
