@@ -74,3 +74,57 @@ pub fn read(photograph: &Photograph, rule: &GlareRule, precision: &Precision) ->
         sources,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::eye::{Eye, Handedness};
+    use super::super::photograph::EXPOSURES;
+    use super::super::picture::Fisheye;
+    use super::*;
+    use crate::color::Xyz;
+    use std::f64::consts::PI;
+
+    /// A photograph of which exposure k has luminance `levels[k]` everywhere but in one bright spot.
+    fn photograph(levels: [f32; EXPOSURES], spot: f32) -> Photograph {
+        let fisheye = Fisheye::new(40);
+        let luminance = |level: f32| {
+            let mut picture = vec![level; 1600];
+            picture[15 * 40 + 20] = spot;
+            LuminancePicture { fisheye, luminance: picture }
+        };
+        Photograph {
+            eye: Eye::new([0.0; 3], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], Handedness::Left).unwrap(),
+            fisheye,
+            color: vec![Xyz::default(); 1600],
+            exposures: levels.map(luminance).to_vec(),
+            samples: 8,
+            rays: 0,
+            dropped: 0,
+        }
+    }
+
+    #[test]
+    fn intervals_of_sums_are_those_of_students_t() {
+        // Levels 1 to 8: variance 6, standard error of the mean √(6/8); t₇(0.975) = 2.364624.
+        let p = photograph([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 4.5);
+        let r = read(&p, &GlareRule::default(), &Precision::default());
+        let e = r.vertical_illuminance.estimate();
+        assert!((e.value - 4.5 * PI).abs() < 0.01 * PI, "{e}");
+        let expected = 2.364_624 * PI * (6.0_f64 / 8.0).sqrt();
+        assert!((e.half_width / expected - 1.0).abs() < 0.01, "{e} {expected}");
+        assert!(r.ugr.is_none() && r.sources.is_empty() && r.dgp.is_some());
+    }
+
+    #[test]
+    fn the_background_is_what_the_sources_leave() {
+        let p = photograph([10.0; EXPOSURES], 50_000.0);
+        let r = read(&p, &GlareRule::default(), &Precision::default());
+        assert!((r.background.value() - 10.0).abs() < 0.1, "{:?}", r.background);
+        let [source] = r.sources.as_slice() else { panic!("{:?}", r.sources) };
+        let expected = 8.0
+            * (0.25 / r.background.value() * 50_000_f64.powi(2) * source.solid_angle
+                / source.position_index.powi(2))
+            .log10();
+        assert!((r.ugr.unwrap().value - expected).abs() < 1e-9 && r.ugr.unwrap().half_width == 0.0);
+    }
+}
