@@ -3,11 +3,13 @@
 use super::common::{Desk, Outputs};
 use crate::Failure;
 use crate::output::reason;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::io::Read as _;
 use std::path::Path;
 use steradian::color::colorimetry::Xy;
-use steradian::lab::color::{Choice, SpectralData, Spot, diagram, light, light_table, object, object_table};
+use steradian::lab::color::{
+    Choice, Noise, SpectralData, Spot, diagram, light, light_table, object, object_table,
+};
 use steradian::render::CancelToken;
 use steradian::scene::nearest;
 use steradian::spectrum::named::{self, named};
@@ -35,8 +37,20 @@ pub(crate) struct Color {
     /// Rows of a table of several spectra that are meant, such as `point=2`
     #[arg(long, value_name = "COLUMN=WORD", value_parser = parse_rows)]
     rows: Option<Rows>,
+    /// How the errors of a file's rows go together
+    #[arg(long, value_enum, default_value_t = Together::Unknown)]
+    noise: Together,
     #[command(flatten)]
     outputs: Outputs,
+}
+
+/// How errors go together.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Together {
+    /// In any way, as in a simulation, whose readings share their paths: the widest intervals
+    Unknown,
+    /// Each row by itself
+    Independent,
 }
 
 const NOTES: &str = "\
@@ -66,21 +80,25 @@ fn parse_rows(text: &str) -> Result<Rows, String> {
 
 pub(crate) fn run(color: &Color, cancel: &CancelToken) -> Result<(), Failure> {
     let desk = Desk::new(&color.outputs)?;
+    let noise = match color.noise {
+        Together::Unknown => Noise::Unknown,
+        Together::Independent => Noise::Independent,
+    };
     if color.reflectance.is_empty() {
         let spectra = color.spectrum.iter().map(|s| color.spectrum(s)).collect::<Result<Vec<_>, _>>()?;
-        let lights: Vec<_> = spectra.iter().map(|s| (s, light(s))).collect();
+        let lights: Vec<_> = spectra.iter().map(|s| (s, light(s, noise))).collect();
         let spots =
             lights.iter().filter_map(|(data, l)| spot(&data.name, l.chromaticity)).collect::<Vec<_>>();
         let title = "chromaticity, CIE 1931";
-        return desk.hand_out(&light_table(&lights), || diagram(title, &spots), cancel);
+        return desk.hand_out(&light_table(&lights, noise), || diagram(title, &spots), cancel);
     }
     let illuminant = color.spectrum(&color.illuminant)?;
     let things = color.reflectance.iter().map(|s| color.file(s)).collect::<Result<Vec<_>, _>>()?;
-    let objects: Vec<_> = things.iter().map(|s| (s, object(s, &illuminant))).collect();
+    let objects: Vec<_> = things.iter().map(|s| (s, object(s, &illuminant, noise))).collect();
     let mut spots: Vec<_> = objects.iter().filter_map(|(data, o)| spot(&data.name, o.chromaticity)).collect();
-    spots.extend(spot(&illuminant.name, light(&illuminant).chromaticity));
+    spots.extend(spot(&illuminant.name, light(&illuminant, noise).chromaticity));
     let title = format!("chromaticity under {}, CIE 1931", illuminant.name);
-    desk.hand_out(&object_table(&objects, &illuminant.name), || diagram(&title, &spots), cancel)
+    desk.hand_out(&object_table(&objects, &illuminant.name, noise), || diagram(&title, &spots), cancel)
 }
 
 fn spot(name: &str, chromaticity: Option<[steradian::units::Estimate; 4]>) -> Option<Spot> {

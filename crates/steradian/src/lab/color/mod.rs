@@ -54,6 +54,17 @@ pub struct ObjectColor {
     pub extent: Extent,
 }
 
+/// How the errors of the rows of a spectrum go together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Noise {
+    /// In a way that is not known: intervals of results are as wide as the least favourable way makes them. Readings of one
+    /// simulation share their paths, so that their errors rise and fall together.
+    #[default]
+    Unknown,
+    /// Each by itself, as those of a detector behind a monochromator.
+    Independent,
+}
+
 /// What a spectrum covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
@@ -71,15 +82,15 @@ const RENDERING_TOLERANCE: f64 = 5.4e-3;
 /// The colour of light from its spectrum.
 ///
 /// Between wavelengths by straight lines, beyond the ends by holding the end values (CIE 15:2018, 7.2), summed at 1 nm over
-/// 360–830 nm. Intervals of the values are taken as independent of each other and carried on to first order.
-pub fn light(data: &SpectralData) -> LightColor {
+/// 360–830 nm. Intervals of the values are carried on to first order.
+pub fn light(data: &SpectralData, noise: Noise) -> LightColor {
     let map = Resampling::linear(&data.wavelengths);
     let spectrum = map.apply(&values(data));
     let colors = test_colors();
     let lit = LitSamples::under(|i| spectrum[i], &colors);
     let numbers: Vec<f64> =
         std::iter::once(lit.white).chain(lit.samples).flat_map(|t| [t.x, t.y, t.z]).collect();
-    let line = Linear::new(data, numbers, |k| {
+    let line = Linear::new(data, noise, numbers, |k| {
         let (sample, channel) = (k / 3, k % 3);
         map.weights(|i| {
             let factor = if sample == 0 { 1.0 } else { colors[sample - 1][i] };
@@ -131,7 +142,7 @@ pub fn light(data: &SpectralData) -> LightColor {
 /// The colour of a reflectance (or transmittance) under an illuminant, CIE 15:2018 (7.1)–(7.4).
 ///
 /// Equidistant reflectances are interpolated by Sprague's polynomials, others by straight lines; the illuminant counts as exact.
-pub fn object(reflectance: &SpectralData, illuminant: &SpectralData) -> ObjectColor {
+pub fn object(reflectance: &SpectralData, illuminant: &SpectralData, noise: Noise) -> ObjectColor {
     let source = Resampling::linear(&illuminant.wavelengths).apply(&values(illuminant));
     let (map, interpolation) = match Resampling::sprague(&reflectance.wavelengths) {
         Some(map) => (map, "Sprague's polynomials"),
@@ -142,7 +153,7 @@ pub fn object(reflectance: &SpectralData, illuminant: &SpectralData) -> ObjectCo
     let white = white.scaled(scale);
     let factors = map.apply(&values(reflectance));
     let xyz = Tristimulus::of(|i| source[i] * factors[i]).scaled(scale);
-    let line = Linear::new(reflectance, vec![xyz.x, xyz.y, xyz.z], |k| {
+    let line = Linear::new(reflectance, noise, vec![xyz.x, xyz.y, xyz.z], |k| {
         map.weights(|i| scale * source[i] * f64::from(cie::table()[i][k]))
     });
     let color = |n: &[f64]| Tristimulus::new(n[0], n[1], n[2]);
@@ -186,17 +197,23 @@ struct Linear {
     numbers: Vec<f64>,
     /// Half-width of each row times its weight in each number.
     spread: Vec<Vec<f64>>,
+    noise: Noise,
 }
 
 impl Linear {
     /// `weights` gives the weight of each row in a number.
-    fn new(data: &SpectralData, numbers: Vec<f64>, weights: impl Fn(usize) -> Vec<f64>) -> Self {
+    fn new(
+        data: &SpectralData,
+        noise: Noise,
+        numbers: Vec<f64>,
+        weights: impl Fn(usize) -> Vec<f64>,
+    ) -> Self {
         let mut spread = Vec::new();
         if data.values.iter().any(|e| e.half_width > 0.0) {
             let scaled = |w: Vec<f64>| w.iter().zip(&data.values).map(|(w, e)| w * e.half_width).collect();
             spread.extend((0..numbers.len()).map(|k| scaled(weights(k))));
         }
-        Self { numbers, spread }
+        Self { numbers, spread, noise }
     }
 
     /// Functions of the numbers, their intervals by the slopes of the functions; `None` where there is no value.
@@ -226,14 +243,17 @@ impl Linear {
             }
         }
         Some(std::array::from_fn(|j| {
-            let half_width = rows.iter().map(|r| r[j] * r[j]).sum::<f64>().sqrt();
+            let half_width = match self.noise {
+                Noise::Unknown => rows.iter().map(|r| r[j].abs()).sum(),
+                Noise::Independent => rows.iter().map(|r| r[j] * r[j]).sum::<f64>().sqrt(),
+            };
             Estimate { value: value[j], half_width }
         }))
     }
 }
 
 /// Colours of lights as a table with one column for each of them.
-pub fn light_table(lights: &[(&SpectralData, LightColor)]) -> Table {
+pub fn light_table(lights: &[(&SpectralData, LightColor)], noise: Noise) -> Table {
     let mut table = sheet("colour of light", lights.iter().map(|(data, _)| data.name.as_str()));
     let unit = match lights {
         [(_, first), rest @ ..] if rest.iter().all(|l| l.1.unit == first.unit) => {
@@ -281,12 +301,12 @@ pub fn light_table(lights: &[(&SpectralData, LightColor)]) -> Table {
     table
         .fact("colour temperature", "nearest point of the Planckian locus in the 1960 diagram (CIE 15:2018)");
     table.fact("colour rendering", "CIE 13.3-1995");
-    level(&mut table, lights.iter().map(|l| (l.0, &l.1.extent)));
+    level(&mut table, noise, lights.iter().map(|l| (l.0, &l.1.extent)));
     table
 }
 
 /// Colours of things under one illuminant as a table with one column for each of them.
-pub fn object_table(objects: &[(&SpectralData, ObjectColor)], illuminant: &str) -> Table {
+pub fn object_table(objects: &[(&SpectralData, ObjectColor)], illuminant: &str, noise: Noise) -> Table {
     let title = format!("colour under {illuminant}");
     let mut table = sheet(&title, objects.iter().map(|(data, _)| data.name.as_str()));
     let row = |quantity: &str, value: &dyn Fn(&ObjectColor) -> Option<Estimate>| -> Vec<Cell> {
@@ -307,7 +327,7 @@ pub fn object_table(objects: &[(&SpectralData, ObjectColor)], illuminant: &str) 
     for (data, o) in objects {
         describe(&mut table, data, &o.extent);
     }
-    level(&mut table, objects.iter().map(|o| (o.0, &o.1.extent)));
+    level(&mut table, noise, objects.iter().map(|o| (o.0, &o.1.extent)));
     table
 }
 
@@ -332,10 +352,14 @@ fn describe(table: &mut Table, data: &SpectralData, extent: &Extent) {
     table.fact(format!("spectrum {}", data.name), text);
 }
 
-fn level<'a>(table: &mut Table, all: impl Iterator<Item = (&'a SpectralData, &'a Extent)>) {
+fn level<'a>(table: &mut Table, noise: Noise, all: impl Iterator<Item = (&'a SpectralData, &'a Extent)>) {
     for (data, _) in all.filter(|(_, extent)| extent.has_intervals) {
         let level = data.confidence.as_deref().unwrap_or("as in the file");
-        let text = format!("{level}; rows taken as independent, carried on to first order");
+        let together = match noise {
+            Noise::Unknown => "as wide as the least favourable correlation of the rows makes them",
+            Noise::Independent => "rows taken as independent",
+        };
+        let text = format!("{level}; carried on to first order, {together}");
         table.fact(format!("intervals of {}", data.name), text);
     }
 }
@@ -356,13 +380,13 @@ mod tests {
         let level = 1.0 / (f64::from(LUMENS_PER_WATT) * f64::from(cie::Y_INTEGRAL));
         let mut data = SpectralData::of("e", &crate::spectrum::Spectrum::Constant(level as f32));
         data.unit = Some("W·m⁻²·nm⁻¹".to_owned());
-        let color = light(&data);
+        let color = light(&data, Noise::Unknown);
         assert_eq!(color.unit, Some("lx"));
         assert!((color.xyz[1].value - 1.0).abs() < 1e-6, "{:?}", color.xyz);
         data.unit = Some("W·m⁻²·sr⁻¹·nm⁻¹".to_owned());
-        assert_eq!(light(&data).unit, Some("cd·m⁻²"));
+        assert_eq!(light(&data, Noise::Unknown).unit, Some("cd·m⁻²"));
         data.unit = None;
-        assert_eq!(light(&data).xyz[1], Estimate::exact(100.0));
+        assert_eq!(light(&data, Noise::Unknown).xyz[1], Estimate::exact(100.0));
     }
 
     #[test]
@@ -374,7 +398,7 @@ mod tests {
         let rows: String =
             skin.split_whitespace().enumerate().map(|(i, v)| format!("{} {v}\n", 380 + 10 * i)).collect();
         let data = SpectralData::parse("dark skin", &rows, Choice::default()).unwrap();
-        let color = object(&data, &builtin("stdillum-D65"));
+        let color = object(&data, &builtin("stdillum-D65"), Noise::Unknown);
         for (found, expected) in color.xyz.iter().zip([11.148, 10.073, 6.804]) {
             assert!((found.value - expected).abs() < 2e-3, "{:?}", color.xyz);
         }
@@ -387,7 +411,7 @@ mod tests {
     fn a_perfect_diffuser_is_white_under_anything() {
         let white = SpectralData::parse("white", "360 1\n830 1\n", Choice::default()).unwrap();
         for name in ["stdillum-A", "stdillum-F11"] {
-            let color = object(&white, &builtin(name));
+            let color = object(&white, &builtin(name), Noise::Unknown);
             let lab = color.lab.unwrap();
             assert!((color.xyz[1].value - 100.0).abs() < 1e-9 && (lab[0].value - 100.0).abs() < 1e-9);
             assert!(lab[1].value.abs() < 1e-9 && lab[2].value.abs() < 1e-9, "{name}: {lab:?}");
@@ -406,7 +430,7 @@ mod tests {
             let value = f64::from(truth.at(*l as f32));
             *e = Estimate { value, half_width: 2.0 * 0.03 * value };
         }
-        let exact = light(&data);
+        let exact = light(&data, Noise::Independent);
         let picked = |c: &LightColor| {
             let (t, xy) = (c.temperature.unwrap(), c.chromaticity.unwrap());
             [xy[0], xy[3], t[0], t[1], c.xyz[0]]
@@ -421,7 +445,9 @@ mod tests {
             for e in &mut noisy.values {
                 *e = Estimate::exact(e.value * (1.0 + 0.03 * normal()));
             }
-            for ((count, p), found) in inside.iter_mut().zip(predicted).zip(picked(&light(&noisy))) {
+            for ((count, p), found) in
+                inside.iter_mut().zip(predicted).zip(picked(&light(&noisy, Noise::Independent)))
+            {
                 *count += i32::from((found.value - p.value).abs() <= p.half_width);
             }
         }
@@ -430,13 +456,24 @@ mod tests {
     }
 
     #[test]
+    fn errors_that_rise_and_fall_together_change_the_amount_and_are_covered() {
+        // 5 % on every row at once: Y changes by 5 %, which only the wide intervals say.
+        let rows: String = (38..=78).map(|i| format!("{} 2 0.1\n", 10 * i)).collect();
+        let mut data = SpectralData::parse("e", &rows, Choice::default()).unwrap();
+        data.unit = Some("W·m⁻²·nm⁻¹".to_owned());
+        let relative = |noise| light(&data, noise).xyz[1].relative();
+        assert!((relative(Noise::Unknown) - 0.05).abs() < 1e-9, "{}", relative(Noise::Unknown));
+        assert!(relative(Noise::Independent) < 0.02);
+    }
+
+    #[test]
     fn what_has_no_colour_temperature_says_so() {
         let laser = SpectralData::parse("laser", "531 0\n532 1\n533 0\n", Choice::default()).unwrap();
-        let color = light(&laser);
+        let color = light(&laser, Noise::Unknown);
         assert!(color.temperature.is_none() && color.rendering.is_none() && color.chromaticity.is_some());
-        let table = light_table(&[(&laser, color)]);
+        let table = light_table(&[(&laser, color)], Noise::Unknown);
         assert!(table.to_text().contains("none: farther than 0.05"), "{}", table.to_text());
         let black = SpectralData::parse("black", "400 0\n700 0\n", Choice::default()).unwrap();
-        assert!(light(&black).chromaticity.is_none());
+        assert!(light(&black, Noise::Unknown).chromaticity.is_none());
     }
 }

@@ -98,17 +98,17 @@ mod tests {
 
     #[test]
     fn the_interval_holds_the_true_uniformity_of_noisy_points_and_the_bare_ratio_is_biased() {
-        // 60 points of 500 lx, one of 400 lx, 5 % noise: U0 = 400/(30400/61) = 0.80263. Over 2000 seeds the interval must
+        // 60 points of 500 lx, one of 480 lx, 5 % noise: U0 = 480/(30480/61) = 0.96063. Over 2000 seeds the interval must
         // hold it in at least 95 % of the runs; z-test at α = 0.001 allows 93.5 %.
         let mut rng = Pcg32::new(17, 1);
         let mut normal = || (0..12).map(|_| f64::from(rng.next_f32())).sum::<f64>() - 6.0;
-        let truth = 400.0 / (30_400.0 / 61.0);
+        let truth = 480.0 / (30_480.0 / 61.0);
         let (mut held, mut bare) = (0, 0.0);
         let runs = 2000;
         for _ in 0..runs {
             let readings: Vec<_> = (0..61)
                 .map(|i| {
-                    let value: f64 = if i == 7 { 400.0 } else { 500.0 };
+                    let value: f64 = if i == 7 { 480.0 } else { 500.0 };
                     let half_width = 1.96 * 0.05 * value;
                     Estimate { value: value + 0.05 * value * normal(), half_width }
                 })
@@ -118,6 +118,7 @@ mod tests {
             bare += u.u0 / f64::from(runs);
         }
         assert!(f64::from(held) / f64::from(runs) > 0.935, "{held}");
-        assert!(bare < truth - 0.005, "{bare} {truth}");
+        // The smallest of 61 lies about 2.3 standard deviations low.
+        assert!(bare < truth - 0.05, "{bare} {truth}");
     }
 }
