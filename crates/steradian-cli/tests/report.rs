@@ -33,7 +33,7 @@ fn a_ball_in_the_sky_has_the_glare_of_the_formulas() {
     let desk = Desk::new(BALL);
     let view = "--view=seat=0,0,0,0,0,1,0,1,0";
     let arguments =
-        ["report", "scene.pbrt", view, "--view-size", "300", "--view-spp", "16", "-o", "out", "-q"];
+        ["report", "scene.pbrt", view, "--view-size", "480", "--view-spp", "8", "-o", "out", "-q"];
     desk.run(&arguments).succeeded();
     let json = desk.json("out/report.json");
     let distance = (1.0_f64 + 0.64 + 4.0).sqrt();
@@ -52,11 +52,12 @@ fn a_ball_in_the_sky_has_the_glare_of_the_formulas() {
     let ugr = 8.0 * (0.25 / background * weight).log10();
     let dgp = 5.87e-5 * vertical + 0.0918 * (1.0 + weight / vertical.powf(1.87)).log10() + 0.16;
     let read = |name: &str| number(&row(&json, 0, name)["value"]);
+    // Pixels on the rim of the ball are covered in part: those below the threshold count as background.
     for (name, expected, tolerance) in [
         ("vertical illuminance at the eye", vertical, 0.01 * vertical),
-        ("background luminance", background, 0.01 * background),
-        ("UGR", ugr, 0.1),
-        ("DGP", dgp, 0.003),
+        ("background luminance", background, 0.035 * background),
+        ("UGR", ugr, 0.4),
+        ("DGP", dgp, 0.004),
         ("sources", 1.0, 0.0),
         ("threshold", 2000.0, 0.0),
     ] {
@@ -64,7 +65,7 @@ fn a_ball_in_the_sky_has_the_glare_of_the_formulas() {
     }
     let source = &json["tables"][1]["rows"][0];
     for (name, expected, tolerance) in [
-        ("mean luminance", 5000.0, 100.0),
+        ("mean luminance", 5000.0, 200.0),
         ("solid angle", omega, 0.03 * omega),
         ("to the right", (0.5_f64).atan().to_degrees(), 0.3),
         ("upwards", (0.8 / distance).asin().to_degrees(), 0.3),
@@ -80,7 +81,7 @@ fn a_ball_in_the_sky_has_the_glare_of_the_formulas() {
     let header = std::str::from_utf8(&picture[..end]).unwrap();
     assert!(header.starts_with("#?RADIANCE\n"), "{header}");
     assert!(header.contains("\nVIEW= -vta -vp 0 0 0 -vd 0 0 1 -vu 0 1 0 -vh 180 -vv 180\n"), "{header}");
-    assert!(picture[end..].starts_with(b"\n\n-Y 300 +X 300\n"));
+    assert!(picture[end..].starts_with(b"\n\n-Y 480 +X 480\n"));
     for name in ["view-seat.svg", "view-seat.png", "view-seat.csv", "view-seat-sources.csv", "index.html"] {
         assert!(!desk.read(&format!("out/{name}")).is_empty(), "{name}");
     }
@@ -130,7 +131,7 @@ fn half_a_sky_gives_half_the_daylight() {
 fn the_example_of_the_help_works() {
     let desk = Desk::new("");
     let arguments =
-        ["report", "--grid", "floor=0,1,0,0,0,559,556,0,0,6,6", "--view", "camera", "-o", "cornell"];
+        ["report", "--grid", "plane=0,400,0,0,0,559,556,0,0,6,6", "--view", "camera", "-o", "cornell"];
     // As in the help, but rough.
     let rough = ["--view-size", "64", "--view-spp", "8", "--precision", "20%"];
     let said = desk.run(&[&arguments[..], &rough].concat()).succeeded();
@@ -139,9 +140,9 @@ fn the_example_of_the_help_works() {
     let html = desk.text("cornell/index.html");
     assert!(html.contains("the built-in Cornell box") && html.contains("<svg"));
     let json = desk.json("cornell/report.json");
-    let floor = row(&json, 0, "floor");
-    let (low, high) = (number(&floor["U0 at least"]), number(&floor["U0 at most"]));
-    assert!(0.0 < low && low < high && high <= 1.0, "{floor}");
+    let plane = row(&json, 0, "plane");
+    let (low, high) = (number(&plane["U0 at least"]), number(&plane["U0 at most"]));
+    assert!(0.0 < low && low < high && high <= 1.0, "{plane}");
 }
 
 #[test]

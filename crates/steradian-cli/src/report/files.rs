@@ -116,9 +116,9 @@ fn base64(bytes: &[u8]) -> String {
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
         let byte = |i: usize| u32::from(group.get(i).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        let bits = (byte(0) << 16) | (byte(1) << 8) | byte(2);
         for digit in 0..4 {
-            let value = (bits >> (18 - 6 * digit) & 63) as usize;
+            let value = ((bits >> (18 - 6 * digit)) & 63) as usize;
             out.push(if digit <= group.len() { char::from(DIGITS[value]) } else { '=' });
         }
     }

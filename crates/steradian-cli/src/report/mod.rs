@@ -61,8 +61,8 @@ A view writes its picture as Radiance .hdr, which evalglare reads. All coordinat
 
 The folder then holds index.html, report.json with all numbers, and for each grid and view CSV, SVG and PNG files.
 
-Example (the built-in Cornell box, whose floor is y = 0 and whose camera looks along z):
-  steradian report --grid floor=0,1,0,0,0,559,556,0,0,6,6 --view camera --view-size 256 -o cornell";
+Example (the built-in Cornell box, of 559 units with y upwards, above its blocks):
+  steradian report --grid plane=0,400,0,0,0,559,556,0,0,6,6 --view camera --view-size 256 -o cornell";
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.grid.is_empty() && arguments.view.is_empty() {

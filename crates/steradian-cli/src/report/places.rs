@@ -35,7 +35,7 @@ pub(super) fn grid(text: &str) -> Result<GridPlace, String> {
     let n: [f64; 11] = numbers(rest).ok_or(
         "expected 11 numbers: a corner, two sides, and the number of cells along each, such as 0,0,0.8,4,0,0,0,3,0,8,6",
     )?;
-    let count = |x: f64| (x >= 1.0 && x <= 1e6 && x.fract() == 0.0).then_some(x as usize);
+    let count = |x: f64| ((1.0..=1e6).contains(&x) && x.fract() == 0.0).then_some(x as usize);
     let (Some(columns), Some(rows)) = (count(n[9]), count(n[10])) else {
         return Err("the last two numbers are counts of cells, at least 1".to_owned());
     };

@@ -150,7 +150,6 @@ mod tests {
 
     /// Chromaticity, temperature, Duv, Ra and R1 to R8 by colour-science 0.4.7
     /// (`xtask/tables/make_colorimetry.py --goldens`).
-    #[expect(clippy::type_complexity, reason = "rows of a table")]
     const GOLDENS: [(&str, f64, f64, f64, f64, f64, [f64; 8]); 32] = [
         (
             "A",

@@ -16,13 +16,13 @@ pub struct Spot {
 }
 
 const WIDTH: f64 = 640.0;
-const HEIGHT: f64 = 600.0;
+const HEIGHT: f64 = 630.0;
 const LEFT: f64 = 62.0;
 const TOP: f64 = 40.0;
 /// Pixels for a step of 1, the same along both axes.
 const UNIT: f64 = 610.0;
 /// Ends of the axes.
-const END: [f64; 2] = [0.8, 0.84];
+const END: [f64; 2] = [0.8, 0.88];
 const SMALL: f64 = 11.0;
 
 /// The spectral locus, the Planckian locus with temperatures, and the colours.
@@ -96,8 +96,9 @@ fn wavelengths(d: &mut Drawing, outline: &[(f64, Xy)]) {
             (place(outline[i.saturating_sub(1)].1), place(outline[(i + 1).min(outline.len() - 1)].1));
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let length = dx.hypot(dy).max(1e-9);
-        // To the left of the way from violet to red.
-        let (nx, ny) = (dy / length, -dx / length);
+        // To the left of the way from violet to red, but not onto the numbers of the axis.
+        let side = if (485.0..515.0).contains(&lambda) { -1.0 } else { 1.0 };
+        let (nx, ny) = (side * dy / length, side * -dx / length);
         d.line(vec![p, [p[0] + 5.0 * nx, p[1] + 5.0 * ny]], Stroke::solid(Ink::GREY, 1.0));
         let anchor = if nx < -0.4 {
             Anchor::End
@@ -134,9 +135,9 @@ fn planckian_locus(d: &mut Drawing) {
             vec![[p[0] - 3.5 * nx, p[1] - 3.5 * ny], [p[0] + 3.5 * nx, p[1] + 3.5 * ny]],
             Stroke::solid(Ink::BLACK, 1.4),
         );
-        let at = [p[0] + 12.0 * nx, p[1] + 12.0 * ny + 0.35 * SMALL];
+        let at = [p[0] + 4.0 * nx + 2.0, p[1] + 4.0 * ny + 10.0];
         let label = if kelvin == 100_000.0 { "10⁵ K".to_owned() } else { format!("{kelvin} K") };
-        d.text(at, label, 10.0, Anchor::Middle, Ink::GREY);
+        d.text(at, label, 10.0, Anchor::Start, Ink::GREY);
     }
 }
 

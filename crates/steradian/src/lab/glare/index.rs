@@ -8,7 +8,7 @@ use super::detection::GlareSource;
 /// `None` without sources or without background. Ratings run from 10 (none) to 28 (uncomfortable); lower values mean no
 /// glare either.
 pub fn ugr(sources: &[GlareSource], background: f64) -> Option<f64> {
-    let sum: f64 = sources.iter().map(|s| weight(s, 2.0)).sum();
+    let sum: f64 = sources.iter().map(weight).sum();
     (sum > 0.0 && background > 0.0).then(|| 8.0 * (0.25 / background * sum).log10())
 }
 
@@ -20,7 +20,7 @@ pub fn dgp(sources: &[GlareSource], vertical_illuminance: f64) -> Option<f64> {
     if !(vertical_illuminance > 0.0) {
         return None;
     }
-    let sum: f64 = sources.iter().map(|s| weight(s, 2.0)).sum();
+    let sum: f64 = sources.iter().map(weight).sum();
     let contrast = sum / vertical_illuminance.powf(1.87);
     Some(5.87e-5 * vertical_illuminance + 9.18e-2 * contrast.ln_1p() / std::f64::consts::LN_10 + 0.16)
 }
@@ -33,9 +33,9 @@ pub fn dgp_in_low_light(dgp: f64, vertical_illuminance: f64) -> f64 {
     (dgp / (1.0 + (4.0 - 0.024 * vertical_illuminance).exp())).min(1.0)
 }
 
-/// L² ω / p^power.
-fn weight(s: &GlareSource, power: f64) -> f64 {
-    s.luminance * s.luminance * s.solid_angle / s.position_index.powf(power)
+/// L² ω / p².
+fn weight(s: &GlareSource) -> f64 {
+    (s.luminance / s.position_index).powi(2) * s.solid_angle
 }
 
 /// What a DGP means (Wienold 2009).

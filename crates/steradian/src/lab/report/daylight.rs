@@ -1,6 +1,5 @@
 //! Daylight factors, and what EN 17037 asks of them.
 
-use crate::integrator::Tally as RayTally;
 use crate::lab::{Block, Moments, Session, Tally};
 use crate::light::Light;
 use crate::math::warp::cosine_hemisphere;
@@ -64,10 +63,8 @@ pub fn outdoors(job: &RenderJob, up: [f64; 3], session: &Session<'_>) -> Option<
             // cosθ over its density cosθ/π.
             total += PI * luminance(frame.to_world(cosine_hemisphere(sampler.next_2d())), &w);
         }
-        let mut tally = RayTally::default();
-        tally.closest_rays += u64::from(BLOCK);
         sum.0.add(total / f64::from(BLOCK));
-        sum.1 += tally.rays();
+        sum.1 += u64::from(BLOCK);
     };
     let mut precision = session.precision;
     precision.relative *= 0.1;

@@ -130,7 +130,7 @@ pub fn view_table(report: &Report, view: &ViewReport) -> Table {
     add("sources", "1", Some(Estimate::exact(r.sources.len() as f64)), "");
     let eye = view.photograph.eye;
     let words = |v: [f64; 3]| {
-        v.map(|x| format!("{:.4}", x).trim_end_matches('0').trim_end_matches('.').to_owned()).join(" ")
+        v.map(|x| format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()).join(" ")
     };
     table.fact("eye [scene units]", words(eye.point));
     table.fact("line of sight", words(eye.ahead));
