@@ -39,8 +39,8 @@ pub fn isolux(grid: &Grid, readings: &[Estimate], title: &str, meters_per_unit: 
     for (i, &v) in values.iter().enumerate() {
         let (x, y) = ((i % grid.columns) as f64, (i / grid.columns) as f64);
         // A little overlap hides the seams of antialiasing.
-        let (u, v) = (0.5 + 0.3 * grid.columns as f64 / width, 0.5 + 0.3 * grid.rows as f64 / height);
-        let corners = [[-u, -v], [u, -v], [u, v], [-u, v]];
+        let (s, t) = (0.5 + 0.3 * grid.columns as f64 / width, 0.5 + 0.3 * grid.rows as f64 / height);
+        let corners = [[-s, -t], [s, -t], [s, t], [-s, t]];
         d.area(corners.map(|c| plan.place([x + c[0], y + c[1]])).to_vec(), shade.ink(v), 1.0);
     }
     let marks = levels(low, high, LEVELS);
