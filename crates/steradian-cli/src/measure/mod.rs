@@ -2,6 +2,7 @@
 
 mod color;
 pub(crate) mod common;
+mod luminaire;
 mod series;
 
 use crate::{Failure, interrupt};
@@ -13,6 +14,8 @@ use steradian::render::CancelToken;
 pub(crate) enum Measure {
     /// Colour of light and of things: tristimulus values, colour temperature, colour rendering
     Color(color::Color),
+    /// Far-field intensity distribution and total flux of a luminaire, also as IES or EULUMDAT file
+    Luminaire(luminaire::Luminaire),
     /// Carry out the measurements that a job file lists
     Series(series::Series),
 }
@@ -27,6 +30,7 @@ pub(crate) fn run(measure: &Measure) -> Result<(), Failure> {
 fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
     match measure {
         Measure::Color(color) => color::run(color, cancel),
+        Measure::Luminaire(luminaire) => luminaire::run(luminaire, cancel),
         Measure::Series(series) => series::run(series, cancel),
     }
 }

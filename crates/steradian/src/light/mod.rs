@@ -6,6 +6,7 @@ mod contract;
 mod infinite;
 mod normalise;
 mod octahedral;
+pub mod photometric;
 mod picture;
 mod point;
 mod selection;
@@ -17,6 +18,7 @@ pub use contract::{Emitter, LightError, LightId, LightPower, LightSample, LightT
 pub use infinite::{DistantLight, ImageInfiniteLight, UniformInfiniteLight};
 pub use normalise::{Amount, Emission, Stated, Total};
 pub use octahedral::latlong_to_octahedral;
+pub use photometric::{EmittingOpening, PhotometricLight};
 pub use picture::EmissionPicture;
 pub use point::{GoniometricLight, PointLight, ProjectionLight, SpotLight};
 pub use selection::{Chosen, LightSampler};
@@ -29,7 +31,7 @@ pub use sky::{
 use bounds::EmitterBounds;
 use selection::Candidate;
 
-use crate::math::{Dir, SurfacePoint, Vec2};
+use crate::math::{Dir, Point, SurfacePoint, Vec2};
 use crate::shape::{ReferencePoint, Shape};
 use crate::spectrum::{Sampled, Wavelengths};
 use crate::units::{LUMENS_PER_WATT, PdfSolidAngle, Radiance};
@@ -47,6 +49,8 @@ pub enum Light {
     Goniometric(Box<GoniometricLight>),
     /// A slide projector.
     Projection(Box<ProjectionLight>),
+    /// A luminaire by its measured distribution.
+    Photometric(Box<PhotometricLight>),
     /// A uniform sky all around.
     UniformInfinite(UniformInfiniteLight),
     /// An environment map.
@@ -77,6 +81,7 @@ impl Light {
             Self::Distant(l) => l.sample(w),
             Self::Goniometric(l) => l.sample(from, w),
             Self::Projection(l) => l.sample(from, w),
+            Self::Photometric(l) => l.sample(from, u, w),
             Self::UniformInfinite(l) => l.sample(u, w),
             Self::ImageInfinite(l) => l.sample(u, w),
             Self::Sky(l) => l.sample(u, w),
@@ -102,6 +107,7 @@ impl Light {
             | Self::Distant(_)
             | Self::Goniometric(_)
             | Self::Projection(_)
+            | Self::Photometric(_)
             | Self::UniformInfinite(_)
             | Self::ImageInfinite(_)
             | Self::Sky(_)
@@ -122,6 +128,7 @@ impl Light {
             | Self::Distant(_)
             | Self::Goniometric(_)
             | Self::Projection(_)
+            | Self::Photometric(_)
             | Self::DiffuseArea(_) => PdfSolidAngle(0.0),
         }
     }
@@ -135,6 +142,7 @@ impl Light {
             | Self::Distant(_)
             | Self::Goniometric(_)
             | Self::Projection(_)
+            | Self::Photometric(_)
             | Self::UniformInfinite(_)
             | Self::ImageInfinite(_)
             | Self::Sky(_)
@@ -154,6 +162,7 @@ impl Light {
             | Self::Distant(_)
             | Self::Goniometric(_)
             | Self::Projection(_)
+            | Self::Photometric(_)
             | Self::DiffuseArea(_) => Sampled::ZERO,
         }
     }
@@ -167,6 +176,7 @@ impl Light {
             Self::Distant(l) => l.power(scene_radius),
             Self::Goniometric(l) => l.power(),
             Self::Projection(l) => l.power(),
+            Self::Photometric(l) => l.power(),
             Self::UniformInfinite(l) => l.power(scene_radius),
             Self::ImageInfinite(l) => l.power(scene_radius),
             Self::Sky(l) => l.power(scene_radius),
@@ -183,6 +193,7 @@ impl Light {
             Self::Distant(_) => "distant",
             Self::Goniometric(_) => "goniometric",
             Self::Projection(_) => "projection",
+            Self::Photometric(_) => "photometric",
             Self::UniformInfinite(_) | Self::ImageInfinite(_) => "infinite",
             Self::Sky(_) => "sky",
             Self::Sun(_) => "sun",
@@ -197,7 +208,8 @@ impl Light {
             | Self::Spot(_)
             | Self::Distant(_)
             | Self::Goniometric(_)
-            | Self::Projection(_) => true,
+            | Self::Projection(_)
+            | Self::Photometric(_) => true,
             Self::UniformInfinite(_)
             | Self::ImageInfinite(_)
             | Self::Sky(_)
@@ -217,11 +229,30 @@ impl Light {
             Self::Spot(l) => vec![l.bounds(power)],
             Self::Goniometric(l) => vec![l.bounds(power)],
             Self::Projection(l) => vec![l.bounds(power)],
+            Self::Photometric(l) => vec![l.bounds(power)],
             Self::Distant(_)
             | Self::UniformInfinite(_)
             | Self::ImageInfinite(_)
             | Self::Sky(_)
             | Self::Sun(_) => Vec::new(),
+        }
+    }
+
+    /// Where the light that shines from a point, or from one of those that `u` ∈ [0, 1)² chooses, is, in render space; `None`
+    /// for lights that rays can meet or that are infinitely far away.
+    pub fn place(&self, u: Vec2) -> Option<Point> {
+        match self {
+            Self::Point(l) => Some(l.position()),
+            Self::Spot(l) => Some(l.position()),
+            Self::Goniometric(l) => Some(l.position()),
+            Self::Projection(l) => Some(l.position()),
+            Self::Photometric(l) => Some(l.place(u)),
+            Self::Distant(_)
+            | Self::UniformInfinite(_)
+            | Self::ImageInfinite(_)
+            | Self::Sky(_)
+            | Self::Sun(_)
+            | Self::DiffuseArea(_) => None,
         }
     }
 

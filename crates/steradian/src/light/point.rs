@@ -89,6 +89,10 @@ impl PointLight {
         self.stand.sample(from, |_| Some(self.intensity.at(w)))
     }
 
+    pub(super) fn position(&self) -> Point {
+        self.stand.position
+    }
+
     pub(super) fn power(&self) -> LightPower {
         power(&self.intensity, 4.0 * PI)
     }
@@ -153,6 +157,10 @@ impl SpotLight {
         })
     }
 
+    pub(super) fn position(&self) -> Point {
+        self.stand.position
+    }
+
     pub(super) fn power(&self) -> LightPower {
         power(&self.intensity, Self::solid_angle(self.cos_full, self.cos_dark))
     }
@@ -210,6 +218,10 @@ impl GoniometricLight {
             let index = |x: f32| ((x * n as f32) as u32).min(n - 1);
             Some(self.intensity.at(w) * mean(self.distribution.rgb(index(st.x), index(st.y)).0))
         })
+    }
+
+    pub(super) fn position(&self) -> Point {
+        self.stand.position
     }
 
     pub(super) fn power(&self) -> LightPower {
@@ -287,6 +299,10 @@ impl ProjectionLight {
             let inside = p.abs().cmple(Vec2::ONE).all();
             inside.then(|| self.slide.light(self.slide.nearest((p + Vec2::ONE) * 0.5), w))
         })
+    }
+
+    pub(super) fn position(&self) -> Point {
+        self.stand.position
     }
 
     pub(super) fn power(&self) -> LightPower {

@@ -33,10 +33,54 @@ pub struct Diagnostic {
     pub message: String,
     /// Where; `None` when the message concerns no particular place.
     pub span: Option<Span>,
+    /// The place in a data file, such as that of a luminaire, when the fault lies there; `span` then names the file.
+    pub quoted: Option<Quoted>,
     /// What to do about it.
     pub help: Option<String>,
     /// Other places that belong to the message, such as an earlier definition.
     pub related: Vec<Related>,
+}
+
+/// A place in a text that is not part of the scene's own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quoted {
+    /// Name of the file.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Character in the line, from 1.
+    pub column: usize,
+    /// Number of characters, at least 1.
+    pub length: usize,
+    /// The line.
+    pub text: String,
+}
+
+/// Characters of a quoted line that are shown.
+const QUOTED_WIDTH: usize = 120;
+
+impl Quoted {
+    fn write(&self, f: &mut fmt::Formatter<'_>, message: &str) -> fmt::Result {
+        write!(f, "{}:{}:{}: {message}", self.file, self.line, self.column)?;
+        if self.text.trim().is_empty() {
+            return Ok(());
+        }
+        // Of a long line the part around the place.
+        let before = self.column.saturating_sub(1);
+        let skipped =
+            if before + self.length > QUOTED_WIDTH { before.saturating_sub(QUOTED_WIDTH / 2) } else { 0 };
+        let shown: String = self
+            .text
+            .chars()
+            .skip(skipped)
+            .take(QUOTED_WIDTH)
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .collect();
+        let gutter = self.line.to_string();
+        let (pad, caret) = (gutter.len(), before - skipped);
+        let marks = "^".repeat(self.length.clamp(1, QUOTED_WIDTH));
+        write!(f, "\n {gutter} | {shown}\n {:pad$} | {:caret$}{marks}", "", "")
+    }
 }
 
 /// A second place that a diagnostic refers to.
@@ -50,7 +94,14 @@ pub struct Related {
 
 impl Diagnostic {
     fn new(severity: Severity, span: Span, message: impl Into<String>) -> Self {
-        Self { severity, message: message.into(), span: Some(span), help: None, related: Vec::new() }
+        Self {
+            severity,
+            message: message.into(),
+            span: Some(span),
+            quoted: None,
+            help: None,
+            related: Vec::new(),
+        }
     }
 
     /// An error at a place.
@@ -61,7 +112,7 @@ impl Diagnostic {
     /// An error that concerns no place in a file that could be read.
     pub fn unplaced_error(message: impl Into<String>) -> Self {
         let message = message.into();
-        Self { severity: Severity::Error, message, span: None, help: None, related: Vec::new() }
+        Self { severity: Severity::Error, message, span: None, quoted: None, help: None, related: Vec::new() }
     }
 
     /// A warning at a place.
@@ -78,6 +129,13 @@ impl Diagnostic {
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
+        self
+    }
+
+    /// The same diagnostic about a place in a data file, which its span names.
+    #[must_use]
+    pub fn in_file(mut self, quoted: Quoted) -> Self {
+        self.quoted = Some(quoted);
         self
     }
 
@@ -138,9 +196,17 @@ struct Rendered<'a> {
 impl fmt::Display for Rendered<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = self.diagnostic;
-        match d.span {
-            Some(span) => self.place(f, span, &format!("{}: {}", d.severity, d.message))?,
-            None => write!(f, "{}: {}", d.severity, d.message)?,
+        let message = format!("{}: {}", d.severity, d.message);
+        match (&d.quoted, d.span) {
+            (Some(quoted), span) => {
+                quoted.write(f, &message)?;
+                if let Some(span) = span {
+                    writeln!(f)?;
+                    self.place(f, span, "note: the file is named here")?;
+                }
+            }
+            (None, Some(span)) => self.place(f, span, &message)?,
+            (None, None) => f.write_str(&message)?,
         }
         if let Some(help) = &d.help {
             write!(f, "\n  help: {help}")?;

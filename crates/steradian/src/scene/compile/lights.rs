@@ -6,19 +6,22 @@ use super::spectra::Meaning;
 use super::textures::TextureCompiler;
 use super::view::rebase;
 use crate::image::Image;
+use crate::light::photometric::{self, Luminaire, Outline};
 use crate::light::{
-    Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, GoniometricLight, Handedness,
-    ImageInfiniteLight, Light, LightError, PointLight, ProjectionLight, Sides, SpotLight, Stated, Total,
-    UniformInfiniteLight, latlong_to_octahedral,
+    Amount, AreaRadiance, DiffuseAreaLight, DistantLight, EmissionPicture, EmittingOpening, GoniometricLight,
+    Handedness, ImageInfiniteLight, Light, LightError, PhotometricLight, PointLight, ProjectionLight, Sides,
+    SpotLight, Stated, Total, UniformInfiniteLight, latlong_to_octahedral,
 };
 use crate::math::Transform;
 use crate::scene::desc::{
-    self, AreaLightDesc, FileRef, LightDesc, LightKind, Normalization, SceneDesc, SpectrumDesc,
+    self, AreaLightDesc, FileRef, LightDesc, LightKind, Normalization, OpeningDesc, SceneDesc, SpectrumDesc,
 };
-use crate::scene::diagnostic::Diagnostic;
+use crate::scene::diagnostic::{Diagnostic, Quoted};
+use crate::scene::files::reason;
 use crate::scene::source::Span;
 use crate::shape::Shape;
 use crate::spectrum::Spectrum;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Compiles lights.
@@ -102,6 +105,31 @@ impl LightCompiler<'_, '_> {
                 let slide = self.emission_picture(file)?;
                 ProjectionLight::new(t, *fov, slide, &stated).map(|l| Light::Projection(Box::new(l)))
             }
+            LightKind::Photometric { spectrum, file, from, opening, interpolation, tilt } => {
+                let luminaire = self.luminaire(file)?;
+                let factor = match &luminaire.tilt {
+                    Some(table) => table.factor(f64::from(*tilt)),
+                    None if *tilt != 0.0 => {
+                        let message = "\"tilt\" has no effect: the file has no tilt factors";
+                        self.textures.diagnostics.warning(desc.span, message);
+                        1.0
+                    }
+                    None => 1.0,
+                };
+                let opening = match opening {
+                    OpeningDesc::Point => EmittingOpening::default(),
+                    OpeningDesc::File => EmittingOpening::of(&luminaire.opening, self.meters_per_unit),
+                    OpeningDesc::Rectangle { along_c0, along_c90 } => EmittingOpening {
+                        half_x: 0.5 * along_c0,
+                        half_y: 0.5 * along_c90,
+                        outline: Outline::Rectangle,
+                    },
+                };
+                let web = luminaire.web.interpolated(*interpolation).scaled(factor);
+                let spectrum = self.spectrum(spectrum);
+                PhotometricLight::new(t, *from, web, opening, spectrum, &stated)
+                    .map(|l| Light::Photometric(Box::new(l)))
+            }
             LightKind::Distant { irradiance, from, to } => {
                 let irradiance = self.spectrum(irradiance);
                 DistantLight::new(t, *from, *to, irradiance, &stated).map(Light::Distant)
@@ -129,6 +157,7 @@ impl LightCompiler<'_, '_> {
                 Err(LightError::NotSquare(..) | LightError::Black),
                 LightKind::Goniometric { file, .. }
                 | LightKind::Projection { file, .. }
+                | LightKind::Photometric { file, .. }
                 | LightKind::ImageInfinite { file, .. },
             ) => file.span,
             _ => desc.span,
@@ -147,6 +176,35 @@ impl LightCompiler<'_, '_> {
 
     pub(super) fn spectrum(&mut self, desc: &SpectrumDesc) -> Spectrum {
         self.textures.spectra.compile(desc, Meaning::Illuminant, self.textures.diagnostics)
+    }
+
+    /// What a photometric file says; `None` when it cannot be read, which is reported at its place in the file.
+    fn luminaire(&mut self, file: &FileRef) -> Option<Luminaire> {
+        let files = self.textures.files;
+        let bytes = match files.read(&file.path) {
+            Ok(bytes) => bytes,
+            Err(e) => {
+                let message = format!("cannot read luminaire {}: {}", file.path.display(), reason(&e));
+                self.textures.diagnostics.error(file.span, message);
+                return None;
+            }
+        };
+        let folder = file.path.parent().unwrap_or(Path::new(""));
+        let mut tilt_file =
+            |name: &str| files.read(&folder.join(name)).map(|b| b.to_vec()).map_err(|e| reason(&e));
+        photometric::read(&bytes, &mut tilt_file)
+            .map_err(|e| {
+                let path = e.file.as_ref().map_or(file.path.clone(), |name| folder.join(name));
+                let quoted = Quoted {
+                    file: path.display().to_string(),
+                    line: e.line,
+                    column: e.column,
+                    length: e.length,
+                    text: e.text,
+                };
+                self.textures.diagnostics.push(Diagnostic::error(file.span, e.message).in_file(quoted));
+            })
+            .ok()
     }
 
     fn emission_picture(&mut self, file: &FileRef) -> Option<EmissionPicture> {

@@ -203,3 +203,57 @@ fn amounts_mean_the_same_in_scenes_of_any_unit() {
         assert!((found / expected - 1.0).abs() < 1e-4, "{world}: {found} {expected}");
     }
 }
+
+const LAMP: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0.6 0.6 0\n1 1 10\n0 45 90\n0\n100 60 0\n";
+
+fn flux_of(world: &str, header: &str) -> f32 {
+    let files = MemoryFiles::new().with("lamp.ies", LAMP);
+    let c = compile_with_header(header, world, &files);
+    let job = c.job.unwrap_or_else(|| panic!("{}", c.shown));
+    job.scene.lights()[0].power(1.0).lumens * job.meters_per_unit * job.meters_per_unit
+}
+
+#[test]
+fn a_luminaire_has_the_flux_of_its_table_or_the_one_that_is_stated() {
+    let smooth = "LightSource \"photometric\" \"string filename\" \"lamp.ies\"";
+    let lamp = format!("{smooth} \"string interpolation\" \"linear\"");
+    // 2π ∫ I sinγ dγ of two straight pieces.
+    let piece = |a: f64, b: f64, va: f64, vb: f64| {
+        let (a, b) = (a.to_radians(), b.to_radians());
+        va * a.cos() - vb * b.cos() + (vb - va) / (b - a) * (b.sin() - a.sin())
+    };
+    let flux = std::f64::consts::TAU * (piece(0.0, 45.0, 100.0, 60.0) + piece(45.0, 90.0, 60.0, 0.0));
+    let cases = [
+        ("", flux),
+        ("\"float scale\" 0.5", 0.5 * flux),
+        ("\"float flux\" 800", 800.0),
+        ("\"float power\" 800 \"string opening\" \"file\"", 800.0),
+        ("\"float intensity\" 50 \"float width\" 2 \"float length\" 1", 0.5 * flux),
+        ("\"blackbody spectrum\" 3000", flux),
+    ];
+    for (more, expected) in cases {
+        for header in ["", "Option \"float metersperunit\" 0.001"] {
+            let found = flux_of(&format!("{lamp} {more}"), header);
+            assert!((f64::from(found) / expected - 1.0).abs() < 1e-4, "{more}: {found} {expected}");
+        }
+    }
+    let web = crate::light::photometric::read(LAMP.as_bytes(), &mut |_| Err(String::new())).unwrap().web;
+    assert!((f64::from(flux_of(smooth, "")) / web.flux() - 1.0).abs() < 1e-6);
+    assert!((web.flux() / flux - 1.0).abs() > 1e-3);
+}
+
+#[test]
+fn a_fault_of_a_luminaire_is_shown_in_its_own_file() {
+    let damaged = LAMP.replace("100 60 0", "100 6O 0");
+    let c = compile(
+        "LightSource \"photometric\" \"string filename\" \"lamp.ies\"",
+        &MemoryFiles::new().with("lamp.ies", damaged),
+    );
+    assert!(c.job.is_none());
+    let expected = "lamp.ies:7:5: error: expected an intensity, a number, found `6O` (intensity 2 of horizontal angle 1 of 1)\n \
+                    7 | 100 6O 0\n   |     ^^\n\
+                    test.pbrt:3:45: note: the file is named here\n";
+    assert!(c.shown.starts_with(expected), "{}", c.shown);
+    let c = compile("LightSource \"photometric\" \"string filename\" \"none.ies\"", &MemoryFiles::new());
+    assert_eq!(c.count(Severity::Error, "cannot read luminaire none.ies: no such file"), 1, "{}", c.shown);
+}

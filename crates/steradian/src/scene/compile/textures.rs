@@ -28,7 +28,7 @@ pub(super) struct TextureCompiler<'a> {
     pub(super) pictures: Pictures<'a>,
     pub(super) diagnostics: &'a mut Diagnostics,
     desc: &'a SceneDesc,
-    files: &'a dyn FileSystem,
+    pub(super) files: &'a dyn FileSystem,
     render_from_world: Transform,
     floats: Vec<Option<FloatInput>>,
     spectrum_textures: BTreeMap<(usize, Meaning), Option<SpectrumInput>>,

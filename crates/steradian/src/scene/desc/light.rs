@@ -5,6 +5,7 @@ use super::medium::MediumDesc;
 use super::sky::{SkyDesc, SunDesc};
 use super::value::{FileRef, SpectrumDesc};
 use crate::light::Total;
+use crate::light::photometric::Interpolation;
 use crate::math::{AnimatedTransform, Point};
 use crate::scene::source::Span;
 
@@ -75,6 +76,21 @@ pub enum LightKind {
         /// Full angle of view along the slide's shorter side [degrees] (90), in (0, 180).
         fov: f32,
     },
+    /// A luminaire by its measured distribution, nadir at −z, C0 plane at +x.
+    Photometric {
+        /// Spectrum, of which only the shape counts (the colour space's white).
+        spectrum: SpectrumDesc,
+        /// IES LM-63 or EULUMDAT.
+        file: FileRef,
+        /// Position (origin).
+        from: Point,
+        /// What it shines from.
+        opening: OpeningDesc,
+        /// What lies between the angles of the file (smooth).
+        interpolation: Interpolation,
+        /// Tilt of the luminaire [degrees] (0), by which an IES file's tilt factors are chosen.
+        tilt: f32,
+    },
     /// Parallel light from infinity.
     Distant {
         /// Perpendicular irradiance (the colour space's white).
@@ -98,6 +114,22 @@ pub enum LightKind {
     Sky(Box<SkyDesc>),
     /// The sun's disk.
     Sun(Box<SunDesc>),
+}
+
+/// The luminous opening of a photometric light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OpeningDesc {
+    /// None: all light comes from one point.
+    Point,
+    /// As the file states it.
+    File,
+    /// A rectangle [scene units], both > 0.
+    Rectangle {
+        /// Extent along C0–C180, light space x.
+        along_c0: f32,
+        /// Extent along C90–C270, light space y.
+        along_c90: f32,
+    },
 }
 
 impl LightKind {

@@ -19,7 +19,7 @@ pub use camera::{CameraDesc, CameraKind, ProjectionDesc, SphericalMapping};
 pub use film::{FilmDesc, FilmKind, FilterDesc, FilterKind, GBufferSpace, SensorDesc, SensorResponse};
 pub use id::Id;
 pub use integrator::{AmbientDesc, ClassicDesc, IntegratorDesc, IntegratorKind, LightSamplerKind, PathDesc};
-pub use light::{AreaLightDesc, AreaRadiance, LightDesc, LightKind, Normalization};
+pub use light::{AreaLightDesc, AreaRadiance, LightDesc, LightKind, Normalization, OpeningDesc};
 pub use material::{ArgumentDesc, ArgumentValue, MaterialDesc};
 pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface, MediumKind};
 pub use options::{OptionsDesc, RenderingSpace};

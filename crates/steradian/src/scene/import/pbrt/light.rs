@@ -3,13 +3,15 @@
 use super::args::Args;
 use super::sky;
 use crate::light::Total;
+use crate::light::photometric::Interpolation;
 use crate::math::Point;
-use crate::scene::desc::{AreaLightDesc, AreaRadiance, FileRef, LightKind, Normalization};
+use crate::scene::desc::{AreaLightDesc, AreaRadiance, FileRef, LightKind, Normalization, OpeningDesc};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
-const CLASSES: &[&str] = &["point", "spot", "goniometric", "projection", "distant", "infinite", "sky", "sun"];
+const CLASSES: &[&str] =
+    &["point", "spot", "goniometric", "projection", "photometric", "distant", "infinite", "sky", "sun"];
 const V3_CLASSES: &[&str] = &["exinfinite"];
 
 /// Reads the parameters of a light class; `None` when the class or something needed is missing (and reported).
@@ -39,6 +41,7 @@ pub(super) fn light(class: &Text, args: &mut Args<'_>) -> Option<LightKind> {
             let file = needed_file(args)?;
             Some(LightKind::Projection { file, fov })
         }
+        "photometric" => photometric(args),
         "distant" => {
             let Aim { from, to } = aim(args)?;
             Some(LightKind::Distant { irradiance: args.light_spectrum("L"), from, to })
@@ -65,6 +68,10 @@ fn unit_of(class: &str) -> &'static str {
 /// `"string unit"`, our extension: the spectrum is absolute.
 pub(super) fn normalization(class: &Text, args: &mut Args<'_>) -> Normalization {
     let Some(unit) = args.text("unit") else { return Normalization::Photometric };
+    if class.value == "photometric" {
+        args.error(unit.span, "the file of a photometric light states candela; its spectrum is a shape");
+        return Normalization::Photometric;
+    }
     let expected = unit_of(&class.value);
     if unit.value != expected {
         let message = format!("the unit of this light can only be \"{expected}\", found \"{}\"", unit.value);
@@ -117,6 +124,12 @@ fn amounts_of(class: &str) -> &'static [AmountParameter] {
         "diffuse" => {
             &[("power", Total::Luminous), ("watts", Total::Radiant), ("luminance", Total::Directional)]
         }
+        "photometric" => &[
+            ("flux", Total::Luminous),
+            ("power", Total::Luminous),
+            ("watts", Total::Radiant),
+            ("intensity", Total::Directional),
+        ],
         _ => &[("power", Total::Luminous), ("watts", Total::Radiant), ("intensity", Total::Directional)],
     }
 }
@@ -172,6 +185,40 @@ fn needed_file(args: &mut Args<'_>) -> Option<FileRef> {
         args.missing("filename");
     }
     file
+}
+
+fn photometric(args: &mut Args<'_>) -> Option<LightKind> {
+    let spectrum = args.light_spectrum("spectrum");
+    let from = args.point("from", Point::ORIGIN);
+    let tilt = args.float_where("tilt", 0.0, |v| (0.0..=180.0).contains(&v), "from 0 to 180");
+    let ways = [("smooth", Interpolation::Smooth), ("linear", Interpolation::Linear)];
+    let interpolation = args.choice("interpolation", Interpolation::Smooth, &ways);
+    let sized = ["width", "length"].into_iter().find(|name| args.has(name)).map(|name| args.span_of(name));
+    let (width, length) = (args.positive("width", 1.0), args.positive("length", 1.0));
+    let place = args.span_of("opening");
+    let opening = args.text("opening");
+    let opening = match (opening.as_ref().map(|t| t.value.as_str()), sized) {
+        (None | Some("point"), None) => OpeningDesc::Point,
+        (Some("file"), None) => OpeningDesc::File,
+        (None, Some(span)) if !(args.has("width") && args.has("length")) => {
+            args.error(span, "an opening needs both \"width\" and \"length\"");
+            OpeningDesc::Point
+        }
+        (None, Some(_)) => OpeningDesc::Rectangle { along_c0: length, along_c90: width },
+        (Some("file" | "point"), Some(span)) => {
+            args.error(span, "give \"opening\" or its \"width\" and \"length\", not both");
+            OpeningDesc::Point
+        }
+        (Some(other), _) => {
+            let d = Diagnostic::error(place, format!("unknown opening \"{other}\""));
+            args.ctx
+                .diagnostics
+                .push(d.with_help("known are point and file; or state \"width\" and \"length\""));
+            OpeningDesc::Point
+        }
+    };
+    let file = needed_file(args)?;
+    Some(LightKind::Photometric { spectrum, file, from, opening, interpolation, tilt })
 }
 
 fn infinite(args: &mut Args<'_>) -> Option<LightKind> {

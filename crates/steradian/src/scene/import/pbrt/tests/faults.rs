@@ -26,12 +26,36 @@ fn amounts_of_lights_are_stated_once_and_in_units_that_fit() {
     );
     expect(
         "LightSource \"distant\" \"float luminance\" 100",
-        &["2:23: error: light \"distant\" has no parameter \"luminance\""],
+        &["2:23: error: light \"distant\" has no parameter \"luminance\" (did you mean \"illuminance\"?)"],
     );
     expect(
         "LightSource \"infinite\" \"float luminance\" -1",
         &["2:24: error: parameter \"luminance\" must be positive, found -1"],
     );
+}
+
+#[test]
+fn faults_of_photometric_lights() {
+    let lamp = |more: &str| format!("LightSource \"photometric\" \"string filename\" \"a.ies\" {more}");
+    let one = |more: &str, message: &str| expect(&lamp(more), &[message]);
+    expect(
+        "LightSource \"photometric\"",
+        &["2:13: error: light \"photometric\" needs a parameter \"filename\""],
+    );
+    one(
+        "\"string opening\" \"disk\"",
+        "2:53: error: unknown opening \"disk\" (known are point and file; or state \"width\" and \"length\")",
+    );
+    one("\"float width\" 1", "2:53: error: an opening needs both \"width\" and \"length\"");
+    one(
+        "\"float flux\" 1 \"float intensity\" 1",
+        "2:68: error: the amount is stated twice: by \"flux\" and by \"intensity\"",
+    );
+    one(
+        "\"string unit\" \"intensity\"",
+        "2:67: error: the file of a photometric light states candela; its spectrum is a shape",
+    );
+    one("\"float tilt\" -10", "2:53: error: parameter \"tilt\" must be from 0 to 180, found -10");
 }
 
 #[test]
