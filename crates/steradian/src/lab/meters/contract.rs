@@ -3,7 +3,7 @@
 use super::super::session::Ending;
 use super::super::subject::Subject;
 use crate::integrator::Metering;
-use crate::math::{BoundedPoint, Normal, Point, Vec3};
+use crate::math::{BoundedPoint, Dir, Normal, Point, Vec3};
 use crate::render::setup;
 use crate::scene::RenderJob;
 use crate::units::kind::Unit;
@@ -155,6 +155,13 @@ pub(super) fn place(job: &RenderJob, index: usize, p: [f64; 3]) -> Result<Bounde
 pub(super) fn normal(job: &RenderJob, index: usize, n: [f64; 3]) -> Result<Normal, MeterError> {
     let unit = Normal::new(unit(n).ok_or(MeterError::NoDirection(index))?);
     let turned = unit.and_then(|n| job.world_from_render.inverse().normal(n));
+    turned.ok_or(MeterError::NoDirection(index))
+}
+
+/// A direction of the scene's world as rays meet it.
+pub(super) fn direction(job: &RenderJob, index: usize, d: [f64; 3]) -> Result<Dir, MeterError> {
+    let unit = Dir::new(unit(d).ok_or(MeterError::NoDirection(index))?);
+    let turned = unit.and_then(|d| job.world_from_render.inverse().direction(d));
     turned.ok_or(MeterError::NoDirection(index))
 }
 

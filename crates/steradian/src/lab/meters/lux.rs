@@ -1,9 +1,9 @@
 //! The luxmeter: irradiance at points, with ideal cosine response, A (17), (30).
 
-use super::super::precision::Precision;
-use super::super::session::{Ending, Session};
+use super::super::session::Session;
 use super::super::table::{Cell, Column, Table};
 use super::bench::{self, Raw, Response, photopic};
+use super::facts::facts;
 use super::contract::{
     DEFAULT_MAX_DEPTH, Effort, MeterError, Shown, check_wavelengths, metering, normal, place,
 };
@@ -205,30 +205,4 @@ pub fn table<Q: Shown>(
     );
     facts(&mut table, readings.iter().map(|r| &r.effort), points.len(), settings.max_depth, session);
     table
-}
-
-/// What is to be known about the readings of any meter.
-pub(super) fn facts<'e>(
-    table: &mut Table,
-    efforts: impl Iterator<Item = &'e Effort> + Clone,
-    places: usize,
-    max_depth: u32,
-    session: &Session<'_>,
-) {
-    let Precision { relative, absolute, confidence, .. } = session.precision;
-    let percent = |x: f64| (x * 1e8).round() / 1e6;
-    table.fact("light", format!("paths of at most {max_depth} bounces with Russian roulette"));
-    table.fact("intervals", format!("{} % confidence, statistical only", percent(confidence)));
-    let floor = if absolute > 0.0 { format!(" or {absolute}") } else { String::new() };
-    table.fact("precision asked", format!("{} %{floor}", percent(relative)));
-    table.fact("rays", efforts.clone().map(|e| e.rays).sum::<u64>().to_string());
-    let count = efforts.clone().count();
-    let imprecise: Vec<Ending> = efforts.map(|e| e.ending).filter(|e| *e != Ending::Precise).collect();
-    let ending = match imprecise.first() {
-        _ if count < places => format!("{}: {count} of {places} measured", Ending::Cancelled.name()),
-        None => Ending::Precise.name().to_owned(),
-        Some(ending) => format!("{}, {} of {count} times", ending.name(), imprecise.len()),
-    };
-    table.fact("ending", ending);
-    table.fact("seed", session.seed.to_string());
 }

@@ -5,7 +5,10 @@
 
 mod bench;
 mod contract;
+mod facts;
+pub mod luminance;
 pub mod lux;
 
 pub use contract::{DEFAULT_MAX_DEPTH, Effort, MeterError, Shown};
+pub use luminance::{LuminanceReading, LuminanceSettings, MeterRay, RadiantRadiance, SpectralRadiance};
 pub use lux::{Aim, LuxReading, LuxSettings, MeterPoint, RadiantIrradiance};
