@@ -3,6 +3,9 @@
 mod color;
 pub(crate) mod common;
 mod luminaire;
+mod luminance;
+mod lux;
+mod places;
 mod series;
 
 use crate::{Failure, interrupt};
@@ -16,6 +19,10 @@ pub(crate) enum Measure {
     Color(color::Color),
     /// Far-field intensity distribution and total flux of a luminaire, also as IES or EULUMDAT file
     Luminaire(luminaire::Luminaire),
+    /// Measure illuminance, irradiance or spectral irradiance at points of a scene
+    Lux(lux::Lux),
+    /// Measure luminance, radiance or spectral radiance from points of a scene in directions
+    Luminance(luminance::Luminance),
     /// Carry out the measurements that a job file lists
     Series(series::Series),
 }
@@ -31,6 +38,8 @@ fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
     match measure {
         Measure::Color(color) => color::run(color, cancel),
         Measure::Luminaire(luminaire) => luminaire::run(luminaire, cancel),
+        Measure::Lux(lux) => lux::run(lux, cancel),
+        Measure::Luminance(luminance) => luminance::run(luminance, cancel),
         Measure::Series(series) => series::run(series, cancel),
     }
 }

@@ -70,18 +70,18 @@ pub(crate) fn run(series: &Series, cancel: &CancelToken) -> Result<(), Failure> 
 
 /// What is wrong with a job file, and where [bytes].
 #[derive(Debug, PartialEq)]
-struct Fault {
+pub(super) struct Fault {
     message: String,
     span: Range<usize>,
 }
 
 impl Fault {
-    fn new(message: impl Into<String>, span: Range<usize>) -> Self {
+    pub(super) fn new(message: impl Into<String>, span: Range<usize>) -> Self {
         Self { message: message.into(), span }
     }
 
     /// `file:line:column`, the line and a caret.
-    fn shown(&self, name: &str, text: &str) -> String {
+    pub(super) fn shown(&self, name: &str, text: &str) -> String {
         let start = self.span.start.min(text.len());
         let before = text.get(..start).unwrap_or(text);
         let (line_number, line_start) =

@@ -177,13 +177,13 @@ pub fn table<Q: Shown>(
     settings: &LuminanceSettings,
     session: &Session<'_>,
 ) -> Table {
-    let mut columns = vec![Column::new("ray", "1")];
+    let mut columns = vec![Column::words("ray")];
     columns.extend(["x", "y", "z"].map(|name| Column::new(name, "scene units")));
     columns.extend(["dx", "dy", "dz"].map(|name| Column::new(name, "1")));
     if !wavelengths.is_empty() {
         columns.push(Column::new("wavelength", "nm"));
     }
-    columns.extend([Column::new(Q::NAME, Q::UNIT), Column::new("rays", "1")]);
+    columns.extend([Column::new(Q::NAME, Q::UNIT), Column::words("rays")]);
     let notes = readings.iter().any(|r| r.effort.note().is_some());
     if notes {
         columns.push(Column::words("note"));

@@ -3,10 +3,10 @@
 use super::super::session::Session;
 use super::super::table::{Cell, Column, Table};
 use super::bench::{self, Raw, Response, photopic};
-use super::facts::facts;
 use super::contract::{
     DEFAULT_MAX_DEPTH, Effort, MeterError, Shown, check_wavelengths, metering, normal, place,
 };
+use super::facts::facts;
 use crate::integrator::SensorPoint;
 use crate::scene::RenderJob;
 use crate::units::kind::{Irradiance, Radiant};
@@ -167,7 +167,7 @@ pub fn table<Q: Shown>(
     settings: &LuxSettings,
     session: &Session<'_>,
 ) -> Table {
-    let mut columns = vec![Column::new("point", "1")];
+    let mut columns = vec![Column::words("point")];
     columns.extend(["x", "y", "z"].map(|name| Column::new(name, "scene units")));
     columns.extend(["nx", "ny", "nz"].map(|name| Column::new(name, "1")));
     if !wavelengths.is_empty() {
@@ -178,7 +178,7 @@ pub fn table<Q: Shown>(
         columns.push(Column::new(format!("direct {}", Q::NAME), Q::UNIT));
         columns.push(Column::new(format!("indirect {}", Q::NAME), Q::UNIT));
     }
-    columns.push(Column::new("rays", "1"));
+    columns.push(Column::words("rays"));
     let notes = readings.iter().any(|r| r.effort.note().is_some());
     if notes {
         columns.push(Column::words("note"));

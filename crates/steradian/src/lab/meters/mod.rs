@@ -8,6 +8,7 @@ mod contract;
 mod facts;
 pub mod luminance;
 pub mod lux;
+pub mod plots;
 
 pub use contract::{DEFAULT_MAX_DEPTH, Effort, MeterError, Shown};
 pub use luminance::{LuminanceReading, LuminanceSettings, MeterRay, RadiantRadiance, SpectralRadiance};
