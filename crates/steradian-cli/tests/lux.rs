@@ -1,4 +1,4 @@
-//! `steradian measure lux` and `steradian measure luminance` as users meet them.
+//! `steradian measure lux`, `luminance` and `pixel` as users meet them.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, reason = "tests fail by panicking")]
 
 mod support;
@@ -195,6 +195,33 @@ fn mistakes_are_explained_where_they_are_made() {
 }
 
 #[test]
+fn a_pixel_receives_what_its_lens_lets_through() {
+    let desk = Desk::new(&SCENE.replace(
+        "LightSource \"point\"",
+        "LightSource \"infinite\" \"spectrum L\" [ 300 1 900 1 ] \"float scale\" 80\nLightSource \"point\"",
+    ));
+    let pixel = |more: &[&str]| {
+        desk.run(&[&["measure", "pixel", "scene.pbrt", "--max-depth", "0", "-o", "p.json"], more].concat())
+    };
+    pixel(&["--pixel", "640,5", "--f-number", "4"]).succeeded();
+    let json = desk.json("p.json");
+    let row = &json["rows"][0];
+    assert!((value(row, "luminance") / 80.0 - 1.0).abs() < 0.01, "{row}");
+    // The upper edge of 1280 by 720 pixels at 90° across the shorter side: 354.5 pixels of 360 off the axis.
+    let cos2 = 1.0 / (1.0 + (354.5_f64 / 360.0).powi(2));
+    let expected = 80.0 * std::f64::consts::PI / 64.0 * cos2 * cos2;
+    assert!((value(row, "illuminance") / expected - 1.0).abs() < 0.01, "{row}, expected {expected}");
+    assert_eq!(json["columns"][4], serde_json::json!({ "name": "exposure", "unit": "lx·s" }));
+    assert_eq!(json["facts"]["working f-number"], "4");
+    pixel(&["--pixel", "640,5"])
+        .failed("error: the scene's camera is a pinhole, through which no light comes: state the f-number of its lens");
+    pixel(&["--pixel", "1280,5", "--f-number", "2"])
+        .failed("error: pixel 1280, 5: the film has 1280 by 720 pixels");
+    pixel(&["--pixel", "5", "--f-number", "2"]).refused("expected a column and a row");
+    pixel(&["--f-number", "2"]).refused("--pixel");
+}
+
+#[test]
 fn the_same_seed_gives_the_same_readings_for_any_number_of_threads() {
     let desk = Desk::new(SCENE);
     let read = |more: &[&str]| {
@@ -209,7 +236,7 @@ fn the_same_seed_gives_the_same_readings_for_any_number_of_threads() {
 #[test]
 fn the_worked_examples_of_the_help_work() {
     let desk = Desk::new(SCENE);
-    for instrument in ["lux", "luminance"] {
+    for instrument in ["lux", "luminance", "pixel"] {
         let help = desk.run(&["measure", instrument, "--help"]).succeeded().out;
         let example = help
             .lines()

@@ -8,7 +8,8 @@ mod support;
 use std::f64::consts::PI;
 use steradian::lab::meters::lux::{self, measure_radiant, measure_spectral};
 use steradian::lab::meters::{
-    Aim, LuminanceSettings, LuxReading, LuxSettings, MeterError, MeterPoint, MeterRay, luminance,
+    Aim, Aperture, LuminanceSettings, LuxReading, LuxSettings, MeterError, MeterPoint, MeterRay, Pixel,
+    PixelSettings, Shown, luminance, pixel,
 };
 use steradian::lab::{Ending, Precision, Session};
 use steradian::render::CancelToken;
@@ -48,13 +49,10 @@ fn readings(
 
 /// Asserts that the reading is precise and holds `expected`, with 2·10⁻⁵ for f32 arithmetic.
 #[track_caller]
-fn assert_reads(reading: steradian::units::Illuminance, expected: f64, relative: f64) {
-    let e = reading.estimate();
-    assert!(e.half_width <= relative * expected.abs() + 1e-9, "{reading}, expected {expected}");
-    assert!(
-        (e.value - expected).abs() <= e.half_width + 2e-5 * expected.abs(),
-        "{reading}, expected {expected}"
-    );
+fn assert_reads(reading: impl Shown, expected: f64, relative: f64) {
+    let e = reading.estimates()[0];
+    assert!(e.half_width <= relative * expected.abs() + 1e-9, "{e}, expected {expected}");
+    assert!((e.value - expected).abs() <= e.half_width + 2e-5 * expected.abs(), "{e}, expected {expected}");
 }
 
 #[test]
@@ -108,6 +106,20 @@ fn a_disk_a_sky_and_a_sun_read_as_their_closed_forms() {
     // The disk hides as much of the sky as it fills, and its dark back is not seen from below.
     let hidden = disk_beside(5.0, 1.0);
     assert_reads(r[0].direct, 30.0 * (PI - hidden) + 560.0 + seen, 2e-3);
+}
+
+#[test]
+fn a_scene_in_millimetres_reads_as_one_in_metres() {
+    // 40 cd and 40 cd/m² are what they are; positions are in the scene's units.
+    let job = job(&format!(
+        "Option \"float metersperunit\" 0.001 {SMALL_FILM} WorldBegin
+         LightSource \"point\" \"point3 from\" [ 0 0 2000 ] \"spectrum I\" {0} \"float scale\" 40
+         AreaLightSource \"diffuse\" \"spectrum L\" {0} \"float scale\" 40
+         Translate 0 0 4000 ReverseOrientation Shape \"disk\" \"float radius\" 2000",
+        flat(1.0)
+    ));
+    let r = readings(&job, &[facing([0.0; 3], UP)], &LuxSettings::default(), 2e-3);
+    assert_reads(r[0].direct, 10.0 + 40.0 * PI / 5.0, 2e-3);
 }
 
 /// ∫ cosθ dω of a disk of radius 1 whose plane is parallel to the meter's at distance `h`, its centre `d` off the meter's normal:
@@ -292,8 +304,7 @@ fn a_luminance_meter_reads_sources_walls_and_the_mean_over_its_cone() {
     // At the edge half of the cone sees the source, and so does half of the pupil.
     assert_reads(read(spot([0.0, 0.0, 0.5], up), 20.0, 0.0).mean, 500.0, 2e-3);
     assert_reads(read(spot([0.0, 0.0, 0.5], up), 0.0, 0.1).mean, 500.0, 2e-3);
-    // A cap of half angle 60° on the edge of a half-space of directions that begins 30° off its axis: the source is all that is
-    // seen for x < −½ tan 60°, nothing of it 60° to the other side.
+    // The edge appears 60° off the axis: just outside of the cone, the source on the one side and nothing on the other.
     assert_reads(read(spot([-0.5 * 3.0_f64.sqrt(), 0.0, 0.5], up), 119.0, 0.0).mean, 1000.0, 2e-3);
     assert_eq!(read(spot([0.5 * 3.0_f64.sqrt(), 0.0, 0.5], up), 119.0, 0.0).mean.value(), 0.0);
     // The table sees the half of its sky: L = ρ E/π with E = π L/2, the source's far edge apart.
@@ -372,4 +383,62 @@ fn intervals_of_the_luminance_meter_are_honest_although_it_decides_when_to_stop(
         let r = &luminance::measure(&job, &rays, &LuminanceSettings::default(), session).expect("valid")[0];
         (r.mean.estimate(), r.effort.ending)
     });
+}
+
+/// Mean of cos⁴θ over the slopes of a square pixel, [x, x + side] × [y, y + side], and over a lens of radius `r` = R/v, by the midpoint
+/// rule.
+fn falloff(x: f64, y: f64, side: f64, r: f64) -> f64 {
+    let middle = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n);
+    let mut sum = 0.0;
+    for (i, j) in (0..32).flat_map(|i| (0..32).map(move |j| (i, j))) {
+        let (sx, sy) = (x + side * middle(i, 32), y + side * middle(j, 32));
+        for (k, l) in (0..32).flat_map(|k| (0..16).map(move |l| (k, l))) {
+            let (radius, phi) = (r * middle(k, 32).sqrt(), 2.0 * PI * middle(l, 16));
+            let (dx, dy) = (sx + radius * phi.cos(), sy + radius * phi.sin());
+            sum += (1.0 + dx * dx + dy * dy).powi(-2);
+        }
+    }
+    sum / f64::from(1024 * 512)
+}
+
+#[test]
+fn a_pixel_receives_light_by_f_number_and_the_fourth_power_of_the_cosine() {
+    // 8 × 8 pixels over slopes from −1 to 1.
+    let under_sky = |camera: &str| {
+        job(&format!(
+            "{SMALL_FILM} Camera {camera} WorldBegin
+             LightSource \"infinite\" \"spectrum L\" {} \"float scale\" 200",
+            flat(1.0)
+        ))
+    };
+    let cancel = CancelToken::new();
+    let session = Session { precision: precision(1e-3), seed: 4, threads: None, cancel: &cancel };
+    let pixels = [Pixel { x: 0, y: 0 }, Pixel { x: 4, y: 4 }, Pixel { x: 7, y: 3 }];
+    let slopes = [[-1.0, -1.0], [0.0, 0.0], [0.75, -0.25]];
+    let job = under_sky("\"perspective\" \"float fov\" 90");
+    let settings = PixelSettings::behind(Aperture::FNumber(2.8));
+    let r = pixel::measure(&job, &pixels, &settings, &session).expect("valid");
+    for (reading, [x, y]) in r.iter().zip(slopes) {
+        assert_reads(reading.arriving, 200.0 * PI / (4.0 * 2.8 * 2.8) * falloff(x, y, 0.25, 0.0), 1.1e-3);
+        assert!((reading.seen.value() / 200.0 - 1.0).abs() < 1e-3, "pictures have no falloff");
+    }
+    // A lens as wide as it is far from the film, which spans 2 by 2: N = 1/2. On its axis H = π L R²/(R² + v²).
+    assert!((falloff(0.0, 0.0, 0.0, 1.0) - 0.5).abs() < 1e-3);
+    let job = under_sky("\"perspective\" \"float fov\" 90 \"float lensradius\" 1 \"float focaldistance\" 5");
+    let film = Aperture::Film(8.0_f64.sqrt());
+    assert!((pixel::f_number(&job, film).expect("a lens") - 0.5).abs() < 1e-5);
+    let r = pixel::measure(&job, &pixels, &PixelSettings::behind(film), &session).expect("valid");
+    for (reading, [x, y]) in r.iter().zip(slopes) {
+        assert_reads(reading.arriving, 200.0 * PI * falloff(x, y, 0.25, 1.0), 2e-3);
+    }
+
+    let refused = |camera: &str, aperture| {
+        pixel::measure(&under_sky(camera), &pixels, &PixelSettings::behind(aperture), &session).map(|_| ())
+    };
+    assert_eq!(refused("\"perspective\"", Aperture::Film(0.035)), Err(MeterError::Pinhole));
+    assert_eq!(refused("\"perspective\"", Aperture::FNumber(0.0)), Err(MeterError::ImagePlane(0.0)));
+    let parallel = refused("\"orthographic\"", Aperture::FNumber(2.0));
+    assert_eq!(parallel, Err(MeterError::NoImagePlane("orthographic")));
+    let off = pixel::measure(&job, &[Pixel { x: 8, y: 0 }], &settings, &session);
+    assert_eq!(off, Err(MeterError::OffFilm { x: 8, y: 0, width: 8, height: 8 }));
 }

@@ -5,6 +5,7 @@ pub(crate) mod common;
 mod luminaire;
 mod luminance;
 mod lux;
+mod pixel;
 mod places;
 mod series;
 
@@ -23,6 +24,8 @@ pub(crate) enum Measure {
     Lux(lux::Lux),
     /// Measure luminance, radiance or spectral radiance from points of a scene in directions
     Luminance(luminance::Luminance),
+    /// Measure what arrives at pixels of the image plane of the scene's camera
+    Pixel(pixel::Pixel),
     /// Carry out the measurements that a job file lists
     Series(series::Series),
 }
@@ -40,6 +43,7 @@ fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
         Measure::Luminaire(luminaire) => luminaire::run(luminaire, cancel),
         Measure::Lux(lux) => lux::run(lux, cancel),
         Measure::Luminance(luminance) => luminance::run(luminance, cancel),
+        Measure::Pixel(pixel) => pixel::run(pixel, cancel),
         Measure::Series(series) => series::run(series, cancel),
     }
 }

@@ -142,6 +142,13 @@ impl Projection {
     }
 }
 
+impl Perspective {
+    /// The lens.
+    pub fn lens(&self) -> &Lens {
+        &self.lens
+    }
+}
+
 impl Spherical {
     /// The maps are defined around +z; the camera's up axis is y (pbrt-v4 book, 5.3).
     fn direction(&self, film: Vec2) -> Vec3 {

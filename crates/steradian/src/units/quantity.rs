@@ -15,7 +15,7 @@ pub trait Quantity: Copy + std::fmt::Debug {
 }
 
 /// Spectral radiance L_λ, A (21).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Radiance;
 
 /// A ratio of like quantities: reflectance, transmittance, path throughput.

@@ -69,6 +69,12 @@ pub enum MeterError {
         /// Rows.
         height: u32,
     },
+    /// An f-number, or the diagonal of a film [m].
+    #[error("f-number and diagonal of the film must be positive, not {0}")]
+    ImagePlane(f64),
+    /// A camera whose aperture has no area.
+    #[error("the scene's camera is a pinhole, through which no light comes: state the f-number of its lens")]
+    Pinhole,
     /// A camera whose film receives no irradiance that could be stated.
     #[error("a {0} camera has no image plane with an irradiance")]
     NoImagePlane(&'static str),

@@ -8,8 +8,10 @@ mod contract;
 mod facts;
 pub mod luminance;
 pub mod lux;
+pub mod pixel;
 pub mod plots;
 
 pub use contract::{DEFAULT_MAX_DEPTH, Effort, MeterError, Shown};
 pub use luminance::{LuminanceReading, LuminanceSettings, MeterRay, RadiantRadiance, SpectralRadiance};
 pub use lux::{Aim, LuxReading, LuxSettings, MeterPoint, RadiantIrradiance};
+pub use pixel::{Aperture, Pixel, PixelReading, PixelSettings};
