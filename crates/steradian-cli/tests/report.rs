@@ -127,6 +127,39 @@ fn half_a_sky_gives_half_the_daylight() {
     assert!(desk.text("out/index.html").contains("Grid yard"));
 }
 
+/// The floor's middle of a black room of 4 m × 4 m × 3 m with an opening of 1 m × 1 m in the middle of its roof, under the CIE's
+/// overcast sky: E/E_h = 9/(7π) · ⅓ (C + 2J) with C = ∫cosθ dω and J = ∫cos²θ dω over the opening, 4.35898 %.
+#[test]
+fn a_roof_light_under_the_overcast_sky_has_the_daylight_factor_of_its_closed_form() {
+    let mut scene =
+        "WorldBegin\nLightSource \"sky\" \"string model\" \"overcast\" \"float illuminance\" 10000\n\
+                     Material \"diffuse\" \"spectrum reflectance\" [ 360 0 830 0 ]\n"
+            .to_owned();
+    for [x0, y0, x1, y1] in
+        [[-2.0, -2.0, -0.5, 2.0], [0.5, -2.0, 2.0, 2.0], [-0.5, -2.0, 0.5, -0.5], [-0.5, 0.5, 0.5, 2.0]]
+    {
+        scene += &format!(
+            "Shape \"bilinearmesh\" \"point3 P\" [ {x0} {y0} 3  {x1} {y0} 3  {x0} {y1} 3  {x1} {y1} 3 ]\n"
+        );
+    }
+    // Walls: the sky must not come in from the sides.
+    for [x0, y0, x1, y1] in [[-2, -2, 2, -2], [2, -2, 2, 2], [2, 2, -2, 2], [-2, 2, -2, -2]] {
+        scene += &format!(
+            "Shape \"bilinearmesh\" \"point3 P\" [ {x0} {y0} -1  {x1} {y1} -1  {x0} {y0} 3  {x1} {y1} 3 ]\n"
+        );
+    }
+    let desk = Desk::new(&scene);
+    let grid = "--grid=middle=-0.005,-0.005,0,0.01,0,0,0,0.01,0,1,1";
+    desk.run(&["report", "scene.pbrt", grid, "--precision", "2%", "-o", "out", "-q"]).succeeded();
+    let json = desk.json("out/report.json");
+    let middle = row(&json, 0, "middle");
+    let factor = &middle["daylight factor, mean"];
+    let half = factor["half_width"].as_f64().unwrap();
+    // At one point the interval misses in one of twenty seeds; twice its width in less than one of ten thousand.
+    assert!((number(factor) - 4.358_98).abs() < 2.0 * half && half < 0.1, "{middle}");
+    assert!((number(&middle["illuminance outdoors"]) / 1e4 - 1.0).abs() < 0.004, "{middle}");
+}
+
 #[test]
 fn the_example_of_the_help_works() {
     let desk = Desk::new("");
