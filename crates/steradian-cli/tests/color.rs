@@ -78,6 +78,21 @@ fn intervals_and_units_of_a_table_reach_the_result() {
     said.failed("error: lux.csv: line 45: wavelength 380 nm follows 780 nm: choose the rows of one spectrum");
 }
 
+/// Under a sky of 100 cd/m² all around, a plane has 100π lx of the sky's colour, here D65 by 41 wavelengths.
+#[test]
+fn light_in_a_scene_has_a_colour() {
+    let desk = Desk::new(
+        "WorldBegin\nLightSource \"infinite\" \"spectrum L\" \"stdillum-D65\" \"float scale\" 100\n",
+    );
+    let arguments = ["measure", "color", "scene.pbrt", "--point", "0,0,0,0,0,1", "-o", "sky.json", "-q"];
+    desk.run(&arguments).succeeded();
+    let json = desk.json("sky.json");
+    let read = |quantity: &str| value(&json, quantity, "value");
+    assert!((read("Y") - 314.16).abs() < 0.01 * 314.16, "{json}");
+    assert!((read("x") - 0.3127).abs() < 2e-3 && (read("y") - 0.3290).abs() < 2e-3, "{json}");
+    assert!((read("correlated colour temperature") - 6504.0).abs() < 60.0 && read("Ra") > 98.0, "{json}");
+}
+
 #[test]
 fn faults_are_named() {
     let desk = Desk::new("");
@@ -86,6 +101,8 @@ fn faults_are_named() {
     desk.put("bad.spd", "400 1\n410 one\n");
     let said = desk.run(&["measure", "color", "--spectrum", "bad.spd"]);
     said.failed("error: bad.spd: line 2: `one` is not a number");
-    desk.run(&["measure", "color"]).refused("--spectrum");
+    desk.run(&["measure", "color"])
+        .failed("error: say what to measure, by --spectrum, --point or --reflectance");
+    desk.run(&["measure", "color", "scene.pbrt"]).refused("--point");
     desk.run(&["measure", "color", "--spectrum", "x", "--rows", "point"]).refused("point=2");
 }

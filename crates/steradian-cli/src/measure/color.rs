@@ -1,32 +1,39 @@
 //! `steradian measure color`: the colour of light and of things.
 
-use super::common::{Desk, Outputs};
+use super::common::{Comb, Desk, Outputs, Sampling, parse_comb, scene};
+use super::places::{Six, parse_six};
 use crate::Failure;
 use crate::output::reason;
 use clap::{Args, ValueEnum};
 use std::io::Read as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use steradian::color::colorimetry::Xy;
 use steradian::lab::color::{
     Choice, Noise, SpectralData, Spot, diagram, light, light_table, object, object_table,
 };
+use steradian::lab::meters::{LuxReading, LuxSettings, MeterPoint, lux};
 use steradian::render::CancelToken;
 use steradian::scene::nearest;
 use steradian::spectrum::named::{self, named};
+use steradian::units::{Estimate, SpectralIrradiance};
 
 #[derive(Args, Clone, Debug)]
 #[command(after_help = NOTES)]
 pub(crate) struct Color {
+    /// Scene files in the pbrt-v4 format, read as one, for --point; `-` reads standard input
+    #[arg(value_name = "SCENE", requires = "point")]
+    pub(crate) scenes: Vec<PathBuf>,
     /// Spectrum of a light: a built-in name, or a file (- for standard input); may be repeated
-    #[arg(
-        long,
-        value_name = "NAME|FILE",
-        required_unless_present = "reflectance",
-        conflicts_with = "reflectance"
-    )]
+    #[arg(long, value_name = "NAME|FILE")]
     spectrum: Vec<String>,
+    /// Light that arrives at a point of the scene, on a plane with that normal; may be repeated
+    #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = parse_six, allow_hyphen_values = true)]
+    point: Vec<Six>,
+    /// Wavelengths at which that light is measured, in nm
+    #[arg(long, value_name = "NM,...", value_delimiter = ',', value_parser = parse_comb, default_value = "380:780:10")]
+    spectral: Vec<Comb>,
     /// Reflectance (or transmittance) of a thing: a file (- for standard input); may be repeated
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["spectrum", "point"])]
     reflectance: Vec<String>,
     /// What the thing is seen under
     #[arg(long, value_name = "NAME|FILE", default_value = "stdillum-D65")]
@@ -42,6 +49,8 @@ pub(crate) struct Color {
     noise: Together,
     #[command(flatten)]
     outputs: Outputs,
+    #[command(flatten)]
+    sampling: Sampling,
 }
 
 /// How errors go together.
@@ -57,6 +66,8 @@ const NOTES: &str = "\
 Light: X, Y, Z, chromaticity, correlated colour temperature with Duv, colour rendering indices Ra and R1-R14
 (CIE 13.3). Things: X, Y, Z, chromaticity and CIE L*a*b* under the illuminant.
 
+With --point the spectral irradiance there is measured first, each wavelength to the precision asked for.
+
 Files hold a wavelength [nm] and a value in each row, and perhaps the half-width of its interval; or they are CSV with
 headings such as `wavelength [nm],spectral irradiance [W·m⁻²·nm⁻¹]`, as `steradian measure` writes them. With such a
 unit, Y is in lx (cd·m⁻², cd, lm), else 100. Intervals are carried on to every result.
@@ -64,6 +75,8 @@ unit, Y is in lx (cd·m⁻², cd, lm), else 100. Intervals are carried on to eve
 Examples:
   steradian measure color --spectrum stdillum-F11
   steradian measure color --spectrum stdillum-A --spectrum stdillum-LED-B1 -o lamps.csv --plot lamps.svg
+  steradian measure color --point 450,0,150,0,1,0 --precision 5%
+      the light on the floor of the built-in Cornell box
   printf '400 0.1\\n500 0.3\\n700 0.8\\n' | steradian measure color --reflectance - --illuminant stdillum-D50";
 
 /// A column and what rows have in it.
@@ -85,7 +98,11 @@ pub(crate) fn run(color: &Color, cancel: &CancelToken) -> Result<(), Failure> {
         Together::Independent => Noise::Independent,
     };
     if color.reflectance.is_empty() {
-        let spectra = color.spectrum.iter().map(|s| color.spectrum(s)).collect::<Result<Vec<_>, _>>()?;
+        let mut spectra = color.spectrum.iter().map(|s| color.spectrum(s)).collect::<Result<Vec<_>, _>>()?;
+        spectra.extend(color.arriving(cancel)?);
+        if spectra.is_empty() {
+            return Err("say what to measure, by --spectrum, --point or --reflectance".to_owned().into());
+        }
         let lights: Vec<_> = spectra.iter().map(|s| (s, light(s, noise))).collect();
         let spots =
             lights.iter().filter_map(|(data, l)| spot(&data.name, l.chromaticity)).collect::<Vec<_>>();
@@ -101,13 +118,42 @@ pub(crate) fn run(color: &Color, cancel: &CancelToken) -> Result<(), Failure> {
     desk.hand_out(&object_table(&objects, &illuminant.name, noise), || diagram(&title, &spots), cancel)
 }
 
-fn spot(name: &str, chromaticity: Option<[steradian::units::Estimate; 4]>) -> Option<Spot> {
+fn spot(name: &str, chromaticity: Option<[Estimate; 4]>) -> Option<Spot> {
     let [x, y, _, _] = chromaticity?;
     let at = Xy { x: x.value, y: y.value };
     Some(Spot { name: name.to_owned(), at, half_widths: [x.half_width, y.half_width] })
 }
 
 impl Color {
+    /// The light at the points of the scene.
+    fn arriving(&self, cancel: &CancelToken) -> Result<Vec<SpectralData>, Failure> {
+        if self.point.is_empty() {
+            return Ok(Vec::new());
+        }
+        let points: Vec<MeterPoint> = self
+            .point
+            .iter()
+            .map(|&[x, y, z, nx, ny, nz]| MeterPoint { position: [x, y, z], normal: [nx, ny, nz] })
+            .collect();
+        let mut wavelengths: Vec<f32> = self.spectral.iter().flat_map(|c| c.0.iter().copied()).collect();
+        wavelengths.sort_by(f32::total_cmp);
+        wavelengths.dedup();
+        let job = scene(&self.scenes, &self.outputs)?;
+        let session = self.sampling.session(cancel);
+        let readings = lux::measure_spectral(&job, &points, &wavelengths, &LuxSettings::default(), &session)
+            .map_err(|e| e.to_string())?;
+        let level = format!("{:.6}", 100.0 * session.precision.confidence);
+        let level = level.trim_end_matches('0').trim_end_matches('.');
+        let data = |(i, reading): (usize, &LuxReading<Vec<SpectralIrradiance>>)| SpectralData {
+            name: format!("point {}", i + 1),
+            unit: Some(SpectralIrradiance::UNIT.to_owned()),
+            wavelengths: wavelengths.iter().map(|l| f64::from(*l)).collect(),
+            values: reading.total.iter().map(|e| e.estimate()).collect(),
+            confidence: Some(format!("{level} % confidence, statistical only")),
+        };
+        Ok(readings.iter().enumerate().map(data).collect())
+    }
+
     /// A built-in spectrum, or one from a file.
     fn spectrum(&self, name: &str) -> Result<SpectralData, String> {
         match named(name) {
