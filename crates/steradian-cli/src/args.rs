@@ -445,8 +445,8 @@ mod tests {
                 "{path} has no example of its own"
             );
             for example in examples {
-                // What follows several spaces explains; what follows a bar is another program.
-                let words = example.split("   ").next().unwrap_or("").split('|').next().unwrap_or("");
+                // What follows several spaces explains; what follows a bar or an arrow is the shell's.
+                let words = example.split("   ").next().unwrap_or("").split(['|', '<']).next().unwrap_or("");
                 if let Err(e) = Cli::try_parse_from(words.split_whitespace()) {
                     panic!("{path}: {example}\n{e}");
                 }

@@ -30,3 +30,12 @@ pub mod integrator;
 // 6: execution
 pub mod render;
 pub mod lab;
+
+/// The pages that show code: what they show compiles.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../../README.md")]
+    mod readme {}
+    #[doc = include_str!("../../../docs/instruments.md")]
+    mod instruments {}
+}
