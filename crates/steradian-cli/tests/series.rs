@@ -47,7 +47,8 @@ quiet = true
     let rows = &desk.json("a.json")["rows"];
     for (row, expected) in [(0, 1.0), (1, 0.5 * 0.5_f64.sqrt())] {
         let lux = rows[row]["illuminance"]["value"].as_f64().unwrap();
-        assert!((lux / expected - 1.0).abs() < 1e-5, "{lux}");
+        // What is left is the noise of sampling wavelengths.
+        assert!((lux / expected - 1.0).abs() < 5e-3, "{lux}");
     }
     assert!(desk.text("b.csv").contains("luminance [cd·m⁻²]"));
 }
