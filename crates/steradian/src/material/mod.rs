@@ -11,6 +11,7 @@ pub mod diffuse;
 pub mod finish;
 pub mod hair;
 pub mod inputs;
+pub mod leaf;
 pub mod legacy_phong;
 pub mod mirror;
 pub mod measured;
@@ -30,6 +31,7 @@ pub use dielectric::{DielectricMaterial, ThinDielectricMaterial};
 pub use diffuse::{DiffuseMaterial, DiffuseTransmissionMaterial};
 pub use hair::{HairMaterial, Pigment};
 pub use inputs::{CoatInput, Lookup, Metal, Roughness, RoughnessScale};
+pub use leaf::LeafMaterial;
 pub use legacy_phong::LegacyPhongMaterial;
 pub use measured::MeasuredMaterial;
 pub use mirror::MirrorMaterial;
@@ -136,6 +138,8 @@ materials! {
     Hair(HairMaterial),
     /// A stack of layers.
     Stack(StackMaterial),
+    /// A leaf by what it holds.
+    Leaf(LeafMaterial),
     /// OpenPBR Surface.
     OpenPbr(OpenPbrMaterial),
     /// One of two materials.
@@ -273,6 +277,7 @@ impl Materials {
         let entry = &self.entries[id.0 as usize];
         match &entry.material {
             Material::Measured(m) => m.table.range(),
+            Material::Leaf(m) => m.range(),
             _ => entry.range,
         }
     }

@@ -15,6 +15,7 @@ pub mod indices;
 pub mod microfacet;
 pub mod multilayer;
 pub mod phase;
+pub mod plate;
 pub mod real;
 pub mod refraction;
 pub mod shares;

@@ -8,6 +8,7 @@ use crate::material::{
     Arguments, Detail, MaterialId, Materials, NormalMapId, Parameter, ParameterKind, Role,
 };
 use crate::scene::desc::{ArgumentValue, FileRef, Id, MaterialDesc};
+use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN};
 use crate::texture::FloatInput;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -89,12 +90,27 @@ impl MaterialCompiler<'_, '_> {
                 let label = desc.name.clone().unwrap_or_else(|| format!("{}#{index}", desc.class.name));
                 self.materials.set_label(id, label);
                 self.materials.set_range(id, arguments.range());
+                self.check_range(desc, id);
                 id
             }
             Err((span, message)) => {
                 self.textures.diagnostics.error(span, message);
                 MaterialId(0)
             }
+        }
+    }
+
+    /// What a file has no data for, a film cannot record; spectra say so themselves.
+    fn check_range(&mut self, desc: &MaterialDesc, id: MaterialId) {
+        let Some([from, to]) = self.textures.spectra.beyond_visible() else { return };
+        let file = desc.class.parameters.iter().find(|p| matches!(p.kind, ParameterKind::File { .. }));
+        let Some(argument) = file.and_then(|file| desc.argument(file.name)) else { return };
+        let (first, last) = self.materials.range(id);
+        // Ends are held over the film's default range.
+        if from < first.min(LAMBDA_MIN) || to > last.max(LAMBDA_MAX) {
+            let message =
+                format!("the film records {from}–{to} nm, but there are data for {first}–{last} nm only");
+            self.textures.diagnostics.error(argument.span, message);
         }
     }
 

@@ -61,6 +61,11 @@ impl<'a> SpectrumCompiler<'a> {
         self.spaces[kind as usize].get_or_insert_with(|| ColorSpace::new(kind))
     }
 
+    /// The film's range [nm] where it reaches beyond 360–830 nm.
+    pub(super) fn beyond_visible(&self) -> Option<[f32; 2]> {
+        self.beyond_visible
+    }
+
     /// The upsampling table of a colour space, built when the first coloured picture needs it.
     pub(super) fn table(&mut self, kind: ColorSpaceKind) -> Arc<UpsamplingTable> {
         let tables = self.tables;
