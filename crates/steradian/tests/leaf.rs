@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 #[path = "support/errors.rs"]
+#[allow(dead_code, reason = "each test binary uses its part of this module")]
 mod errors;
 
 use errors::expect_with;
@@ -86,6 +87,7 @@ fn the_conformance_suite_passes_for_leaves() {
 #[track_caller]
 fn refused(parameters: &str, table: &str, column: usize, marked: usize, message: &str) {
     let line = format!("Material \"leaf\" \"string coefficients\" \"table.txt\" {parameters}");
+    let line = line.trim_end();
     expect_with(
         &format!("WorldBegin\n{line}\nShape \"sphere\"\n"),
         [("table.txt", table.as_bytes())],

@@ -173,7 +173,15 @@ impl<'a> Bsdf<'a> {
     /// ρ and τ for light that arrives from `wi`, discrete directions included: in closed form where the variant knows
     /// one, else by a deterministic average over its own samples.
     pub fn albedo(&self, wi: LocalDir) -> Albedo {
-        let closed_form = match self {
+        self.closed_albedo(wi).unwrap_or_else(|| {
+            // Towards sensors, weights are ratios of power.
+            Albedo::by_sampling(|uc, u| self.sample(wi, uc, u, Mode::Importance))
+        })
+    }
+
+    /// The same where it is a closed form or an integral by Gauss' rule; `None` where only samples can tell.
+    pub fn closed_albedo(&self, wi: LocalDir) -> Option<Albedo> {
+        match self {
             Self::Diffuse(b) => Some(b.albedo()),
             Self::DiffuseTransmission(b) => Some(b.albedo()),
             Self::OrenNayar(b) => Some(b.albedo(wi)),
@@ -191,11 +199,7 @@ impl<'a> Bsdf<'a> {
             | Self::OpenPbr(_)
             | Self::Measured(_)
             | Self::Hair(_) => None,
-        };
-        closed_form.unwrap_or_else(|| {
-            // Towards sensors, weights are ratios of power.
-            Albedo::by_sampling(|uc, u| self.sample(wi, uc, u, Mode::Importance))
-        })
+        }
     }
 
     /// The interface that light meets first, without any film; `None` where there is no single one.

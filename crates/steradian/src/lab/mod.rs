@@ -11,8 +11,10 @@ pub mod preview;
 pub mod probe;
 pub mod report;
 pub mod session;
+pub mod spectro;
 pub mod subject;
 pub mod table;
+pub mod turbid;
 pub mod verify;
 
 pub use precision::{Moments, Precision};

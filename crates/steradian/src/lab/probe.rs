@@ -136,6 +136,11 @@ impl<'j> Probe<'j> {
         Ok(Self { parts })
     }
 
+    /// The scattering functions in the order of the wavelengths, each with the number of its lanes that count.
+    pub fn parts(&self) -> impl Iterator<Item = (&Bsdf<'j>, usize)> {
+        self.parts.iter().map(|p| (&p.bsdf, p.lanes))
+    }
+
     /// Whether values are estimates by random walks.
     pub fn is_estimated(&self) -> bool {
         self.parts.iter().any(|p| !p.bsdf.claims().is_closed_form())
