@@ -13,7 +13,8 @@ MakeNamedMaterial "foil" "string type" "leaf" "string coefficients" "table.txt" 
 "#;
 
 /// Invented.
-const TABLE: &str = "lambda nrefrac SAC_CHL SAC_EWT SAC_LMA\n400 1.5 0.1 0 1\n700 1.45 0 0 1\n1000 1.4 0 40 5\n";
+const TABLE: &str =
+    "lambda nrefrac SAC_CHL SAC_EWT SAC_LMA\n400 1.5 0.1 0 1\n700 1.45 0 0 1\n1000 1.4 0 40 5\n";
 
 /// Rows of numbers below the comments and the header; words are NaN.
 fn rows(csv: &str) -> Vec<Vec<f64>> {
@@ -43,13 +44,25 @@ fn a_pane_reads_its_closed_form_and_photons_agree() {
     let text = desk.text("exact.csv");
     assert!(text.contains("wavelength [nm],incidence [°],reflectance [1],reflectance ± [1]"), "{text}");
     let exact = rows(&text);
-    for (row, [r, t]) in exact.iter().zip([[0.070221, 0.834992], [0.070221, 0.834992], [0.137917, 0.748214]]) {
+    for (row, [r, t]) in exact.iter().zip([[0.070221, 0.834992], [0.070221, 0.834992], [0.137917, 0.748214]])
+    {
         assert!(near(row[2], r) && row[3] == 0.0 && near(row[4], t) && near(row[6], 1.0 - r - t), "{row:?}");
     }
     assert_eq!(desk.json("exact.json")["columns"][2]["unit"], "1");
     assert!(desk.text("pane.svg").contains("share of the incident power"));
     // One interval in a million leaves the truth out; there are twelve.
-    run(&["--incidence", "60", "--method", "sampled", "--precision", "3%", "--confidence", "0.999999", "-o", "sampled.csv"]);
+    run(&[
+        "--incidence",
+        "60",
+        "--method",
+        "sampled",
+        "--precision",
+        "3%",
+        "--confidence",
+        "0.999999",
+        "-o",
+        "sampled.csv",
+    ]);
     let text = desk.text("sampled.csv");
     for row in rows(&text) {
         for (column, truth) in [(2, 0.137917), (4, 0.748214), (6, 0.113869)] {
@@ -64,8 +77,19 @@ fn a_pane_reads_its_closed_form_and_photons_agree() {
 fn paint_reads_too_low_in_a_single_beam() {
     let desk = desk();
     let run = |sphere: &str| {
-        let arguments =
-            ["measure", "spectro", "scene.pbrt", "--material", "paint", "-l", "550", "--sphere", sphere, "-o", "p.csv"];
+        let arguments = [
+            "measure",
+            "spectro",
+            "scene.pbrt",
+            "--material",
+            "paint",
+            "-l",
+            "550",
+            "--sphere",
+            sphere,
+            "-o",
+            "p.csv",
+        ];
         desk.run(&arguments).succeeded();
         desk.text("p.csv")
     };
@@ -88,9 +112,8 @@ fn leaves_are_measured_as_far_as_their_table_reaches() {
     assert_eq!(all.len(), 7);
     // Green above blue, and all of the light is somewhere.
     assert!(all[3][2] > all[0][2] && all.iter().all(|r| near(r[2] + r[4] + r[6], 1.0)));
-    leaf("390,500").failed(
-        "error: wavelength 390 nm: the data of material \"foil\" reach from 400 to 1000 nm",
-    );
+    leaf("390,500")
+        .failed("error: wavelength 390 nm: the data of material \"foil\" reach from 400 to 1000 nm");
 }
 
 #[test]
@@ -111,13 +134,15 @@ fn the_worked_example_works() {
 fn spectro_names_what_is_wrong() {
     let desk = desk();
     let run = |more: &[&str]| {
-        let all: Vec<&str> = ["measure", "spectro", "scene.pbrt", "-m", "paint"].iter().chain(more).copied().collect();
+        let all: Vec<&str> =
+            ["measure", "spectro", "scene.pbrt", "-m", "paint"].iter().chain(more).copied().collect();
         desk.run(&all)
     };
     run(&["--incidence", "90"]).refused("other than 90");
     run(&["--incidence", "sideways"]).refused("diffuse-below");
     run(&["--view", "95,0"]).refused("THETA,PHI");
-    run(&["--view", "88,0", "-l", "500"]).failed("error: a viewing cone of 5° about 88° is not above the horizon");
+    run(&["--view", "88,0", "-l", "500"])
+        .failed("error: a viewing cone of 5° about 88° is not above the horizon");
     run(&["--sphere", "single-beam", "--wall", "1", "-l", "500"])
         .failed("error: a sphere has a wall of reflectance from 0 to below 1, a port between 0 and 1, and a standard above 0 and up to 1");
 }
@@ -125,8 +150,19 @@ fn spectro_names_what_is_wrong() {
 #[test]
 fn turbid_slabs_stand_beside_their_models() {
     let desk = Desk::new("");
-    desk.run(&["measure", "turbid", "--albedo", "0.9", "--thickness", "1,inf", "-o", "t.csv", "--plot", "t.svg"])
-        .succeeded();
+    desk.run(&[
+        "measure",
+        "turbid",
+        "--albedo",
+        "0.9",
+        "--thickness",
+        "1,inf",
+        "-o",
+        "t.csv",
+        "--plot",
+        "t.svg",
+    ])
+    .succeeded();
     let found = rows(&desk.text("t.csv"));
     for (column, expected) in [(1, 0.26741), (2, 0.59163), (3, 0.35271), (4, 0.47475)] {
         assert!((found[0][column] - expected).abs() < 2e-5, "{found:?}");

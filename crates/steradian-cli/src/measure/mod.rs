@@ -8,6 +8,8 @@ mod lux;
 mod pixel;
 mod places;
 mod series;
+mod spectro;
+mod turbid;
 
 use crate::{Failure, interrupt};
 use clap::Subcommand;
@@ -26,6 +28,10 @@ pub(crate) enum Measure {
     Luminance(luminance::Luminance),
     /// Measure what arrives at pixels of the image plane of the scene's camera
     Pixel(pixel::Pixel),
+    /// Measure reflectance, transmittance and absorptance of a material in an integrating sphere
+    Spectro(spectro::Spectro),
+    /// Compare models of a turbid slab with the transport of light
+    Turbid(turbid::Turbid),
     /// Carry out the measurements that a job file lists
     Series(series::Series),
 }
@@ -44,6 +50,8 @@ fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
         Measure::Lux(lux) => lux::run(lux, cancel),
         Measure::Luminance(luminance) => luminance::run(luminance, cancel),
         Measure::Pixel(pixel) => pixel::run(pixel, cancel),
+        Measure::Spectro(spectro) => spectro::run(spectro, cancel),
+        Measure::Turbid(turbid) => turbid::run(turbid, cancel),
         Measure::Series(series) => series::run(series, cancel),
     }
 }
