@@ -47,7 +47,7 @@ impl Turbid {
         let slab = Slab { depth, ..self.slab };
         let transport = slab.solve()?;
         let Slab { albedo, anisotropy, eta, below, .. } = slab;
-        let layer = TwoFlux::of_medium(albedo, depth, anisotropy);
+        let layer = TwoFlux::of_medium(albedo, anisotropy, depth);
         let boundary = Saunderson::of_index(eta);
         let two_flux = match below {
             Below::Surroundings => boundary.between(layer.shares()),

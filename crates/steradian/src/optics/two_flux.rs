@@ -3,13 +3,15 @@
 use super::hemispherical::diffuse_reflectance;
 use super::shares::Shares;
 
-/// A layer by its coefficients, with its thickness multiplied in.
+/// A layer by its coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoFlux {
-    /// K d: absorption coefficient of diffuse light times thickness, at least 0; may be infinite.
+    /// K: absorption coefficient of diffuse light [length⁻¹], at least 0.
     pub absorption: f64,
-    /// S d: backscattering coefficient times thickness, at least 0; may be infinite.
+    /// S: backscattering coefficient of diffuse light [length⁻¹], at least 0.
     pub scattering: f64,
+    /// d: thickness [length], at least 0; may be infinite.
+    pub thickness: f64,
 }
 
 impl TwoFlux {
@@ -20,27 +22,33 @@ impl TwoFlux {
         1.0 / (1.0 + k + (k * (k + 2.0)).sqrt())
     }
 
-    /// The coefficients that a medium of this single-scattering albedo in [0, 1], optical thickness and mean cosine is
-    /// commonly given: K d = 2 (1 − ω) τ and S d = (¾ ω (1 − g) − ¼ (1 − ω)) τ, not below 0 (van Gemert & Star 1987). From
-    /// diffusion theory, hence for ω near 1.
-    pub fn of_medium(albedo: f64, depth: f64, anisotropy: f64) -> Self {
-        let scaled = |share: f64| if share > 0.0 { share * depth } else { 0.0 };
+    /// The coefficients that a medium of this single-scattering albedo in [0, 1] and mean cosine is commonly given, for
+    /// lengths in units of the mean free path: K = 2 (1 − ω) and S = ¾ ω (1 − g) − ¼ (1 − ω), not below 0 (van Gemert & Star
+    /// 1987). From diffusion theory, hence for ω near 1.
+    pub fn of_medium(albedo: f64, anisotropy: f64, depth: f64) -> Self {
         Self {
-            absorption: scaled(2.0 * (1.0 - albedo)),
-            scattering: scaled(0.75 * albedo * (1.0 - anisotropy) - 0.25 * (1.0 - albedo)),
+            absorption: 2.0 * (1.0 - albedo),
+            scattering: (0.75 * albedo * (1.0 - anisotropy) - 0.25 * (1.0 - albedo)).max(0.0),
+            thickness: depth,
         }
     }
 
     /// The shares of diffuse light on the layer alone: R = sinh b S d / D and T = b / D with D = a sinh b S d + b cosh b S d,
     /// a = 1 + K/S, b = √(a² − 1) (Kubelka 1948).
     pub fn shares(&self) -> Shares {
-        let Self { absorption: k, scattering: s } = *self;
+        let Self { absorption, scattering, thickness } = *self;
+        if thickness.is_infinite() {
+            return match (absorption > 0.0, scattering > 0.0) {
+                (_, true) => {
+                    Shares { reflectance: Self::infinite(absorption / scattering), transmittance: 0.0 }
+                }
+                (true, false) => Shares { reflectance: 0.0, transmittance: 0.0 },
+                (false, false) => Shares { reflectance: 0.0, transmittance: 1.0 },
+            };
+        }
+        let (k, s) = (absorption * thickness, scattering * thickness);
         if s == 0.0 {
             return Shares { reflectance: 0.0, transmittance: (-k).exp() };
-        }
-        if s.is_infinite() || k.is_infinite() {
-            let ratio = if s.is_infinite() && k.is_infinite() { f64::NAN } else { k / s };
-            return Shares { reflectance: Self::infinite(ratio), transmittance: 0.0 };
         }
         // b S d = √(K d (K d + 2 S d)).
         let x = (k * (k + 2.0 * s)).sqrt();
@@ -48,8 +56,7 @@ impl TwoFlux {
             return Shares { reflectance: s / (1.0 + s), transmittance: 1.0 / (1.0 + s) };
         }
         // Times 2 e^(−x), so that nothing overflows.
-        let fall = (-2.0 * x).exp();
-        let (sinh, cosh) = (-(-2.0 * x).exp_m1(), 1.0 + fall);
+        let (sinh, cosh) = (-(-2.0 * x).exp_m1(), 1.0 + (-2.0 * x).exp());
         let denominator = (k + s) * sinh + x * cosh;
         Shares { reflectance: s * sinh / denominator, transmittance: 2.0 * x * (-x).exp() / denominator }
     }
@@ -102,7 +109,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const LAYER: TwoFlux = TwoFlux { absorption: 0.1, scattering: 1.0 };
+    const LAYER: TwoFlux = TwoFlux { absorption: 0.1, scattering: 1.0, thickness: 1.0 };
 
     #[test]
     fn layers_have_the_checked_shares() {
@@ -116,14 +123,17 @@ mod tests {
 
     #[test]
     fn limits_are_met() {
-        let thick = TwoFlux { absorption: 1e3, scattering: 1e4 };
-        assert!((thick.shares().reflectance - TwoFlux::infinite(0.1)).abs() < 1e-12);
-        let clear = TwoFlux { absorption: 0.0, scattering: 3.0 }.shares();
+        let at = |absorption, scattering, thickness| TwoFlux { absorption, scattering, thickness }.shares();
+        assert!((at(0.1, 1.0, 1e4).reflectance - TwoFlux::infinite(0.1)).abs() < 1e-12);
+        let clear = at(0.0, 1.0, 3.0);
         assert!((clear.reflectance - 0.75).abs() < 1e-15 && clear.absorptance().abs() < 1e-15);
-        let nearly = TwoFlux { absorption: 1e-13, scattering: 3.0 }.shares();
-        assert!((nearly.reflectance - 0.75).abs() < 1e-12);
-        let dark = TwoFlux { absorption: 2.0, scattering: 0.0 }.shares();
-        assert_eq!((dark.reflectance, dark.transmittance), (0.0, (-2.0_f64).exp()));
+        assert!((at(1e-13, 3.0, 1.0).reflectance - 0.75).abs() < 1e-12);
+        let shares = |reflectance, transmittance| Shares { reflectance, transmittance };
+        assert_eq!(at(2.0, 0.0, 1.0), shares(0.0, (-2.0_f64).exp()));
+        assert_eq!(at(0.1, 1.0, f64::INFINITY), shares(TwoFlux::infinite(0.1), 0.0));
+        assert_eq!(at(0.1, 0.0, f64::INFINITY), shares(0.0, 0.0));
+        assert_eq!(at(0.0, 0.0, f64::INFINITY), shares(0.0, 1.0));
+        assert_eq!(at(3.0, 1.0, 0.0), shares(0.0, 1.0));
         assert_eq!(TwoFlux::infinite(0.0), 1.0);
     }
 
@@ -131,7 +141,7 @@ mod tests {
         /// The differential equations: a layer on a thin one, to first order.
         #[test]
         fn layers_add(k in 0.0f64..3.0, s in 0.0f64..3.0, share in 0.01f64..0.99, below in 0.0f64..1.0) {
-            let part = |f: f64| TwoFlux { absorption: f * k, scattering: f * s };
+            let part = |thickness: f64| TwoFlux { absorption: k, scattering: s, thickness };
             let whole = part(1.0).over(below);
             prop_assert!((part(share).over(part(1.0 - share).over(below)) - whole).abs() < 1e-7);
             let thin = 1e-7;

@@ -175,7 +175,6 @@ pub fn binomial(count: u64, total: u64, confidence: f64) -> Estimate {
     }
     let half_width = if rare > MANY {
         let normal = Precision { confidence, ..Precision::default() };
-        // Student's t with that many degrees of freedom is the normal distribution.
         let z = normal.half_width(1.0, total);
         let skew = (1.0 - 2.0 * share).abs();
         // The next term of the expansion in 1/√n, as the Poisson distribution's limit has it.
