@@ -130,9 +130,9 @@ fn wrong_leaves_are_refused_where_they_are_wrong() {
         "parameter \"structure\" must be from 1 to 10, found 0.5",
     );
     refused(
-        "\"float proteins\" 0.001 \"float drymatter\" 0.01",
+        "\"float drymatter\" 1 \"float proteins\" 1",
         TABLE,
-        74,
+        51,
         17,
         "\"drymatter\" is all of it: give it, or \"proteins\" and \"carbonbased\", not both",
     );
