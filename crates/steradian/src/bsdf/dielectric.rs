@@ -330,15 +330,11 @@ impl ThinDielectric {
         [Specimen::new("thin dielectric", Claims::LOSSLESS, Self { eta: 1.5 })].into_iter()
     }
 
-    /// All orders of internal reflection summed, R + T²R/(1 − R²), for unpolarised interfaces
-    /// (pbrt-v4 book, 9.5.1).
+    /// All orders of internal reflection summed for each polarisation, R + T²R/(1 − R²) = 2R/(1 + R), and then their mean, as
+    /// Stokes (1862) has it for unpolarised light. pbrt-v4 (book, 9.5.1) sums for the mean R instead: its panes transmit too
+    /// little, 3 % at 70°.
     fn reflectance(&self, wo: LocalDir) -> f32 {
-        let r = fresnel::dielectric(wo.abs_cos_theta(), self.eta);
-        if r < 1.0 {
-            let t = 1.0 - r;
-            r + t * t * r / (1.0 - r * r)
-        } else {
-            1.0
-        }
+        let single = fresnel::dielectric_polarized(wo.abs_cos_theta(), self.eta);
+        single.s / (1.0 + single.s) + single.p / (1.0 + single.p)
     }
 }
