@@ -10,6 +10,7 @@ mod places;
 mod series;
 mod spectro;
 mod turbid;
+mod validation;
 
 use crate::{Failure, interrupt};
 use clap::Subcommand;
@@ -34,6 +35,8 @@ pub(crate) enum Measure {
     Turbid(turbid::Turbid),
     /// Carry out the measurements that a job file lists
     Series(series::Series),
+    /// Hold the instruments to closed forms of lighting, and print the table
+    Validation(validation::Validation),
 }
 
 pub(crate) fn run(measure: &Measure) -> Result<(), Failure> {
@@ -53,5 +56,6 @@ fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
         Measure::Spectro(spectro) => spectro::run(spectro, cancel),
         Measure::Turbid(turbid) => turbid::run(turbid, cancel),
         Measure::Series(series) => series::run(series, cancel),
+        Measure::Validation(validation) => validation::run(validation, cancel),
     }
 }

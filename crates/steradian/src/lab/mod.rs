@@ -15,6 +15,7 @@ pub mod spectro;
 pub mod subject;
 pub mod table;
 pub mod turbid;
+pub mod validation;
 pub mod verify;
 
 pub use precision::{Moments, Precision};

@@ -11,3 +11,4 @@ pub mod view_factor;
 pub mod enclosure;
 pub mod luminaire;
 pub mod daylight;
+pub mod opening;
