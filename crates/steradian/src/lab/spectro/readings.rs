@@ -147,10 +147,10 @@ impl Spectrum {
                  which a material without gain absorbs less",
             );
         }
-        let percent = 100.0 * self.precision.confidence;
-        table.fact("confidence", format!("{percent} %, statistical only; exact for counts"));
-        let Precision { relative, absolute, .. } = self.precision;
-        table.fact("precision", format!("{} % of the value, or ±{absolute}", 100.0 * relative));
+        let Precision { relative, absolute, confidence, .. } = self.precision;
+        let [confidence, relative] = [confidence, relative].map(|share| Estimate::exact(100.0 * share));
+        table.fact("confidence", format!("{confidence} %, statistical only; exact for counts"));
+        table.fact("precision", format!("{relative} % of the value, or ±{}", Estimate::exact(absolute)));
         table.fact("rays", self.rays.to_string());
         table.fact("ending", self.ending.name());
         table.fact("seed", self.seed.to_string());
