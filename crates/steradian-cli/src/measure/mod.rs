@@ -2,6 +2,7 @@
 
 mod color;
 pub(crate) mod common;
+mod gonio;
 mod luminaire;
 mod luminance;
 mod lux;
@@ -21,6 +22,8 @@ use steradian::render::CancelToken;
 pub(crate) enum Measure {
     /// Colour of light and of things: tristimulus values, colour temperature, colour rendering
     Color(color::Color),
+    /// Where a material or a piece of geometry scatters light to: BRDF, BTDF and SPF of cells
+    Gonio(Box<gonio::Gonio>),
     /// Far-field intensity distribution and total flux of a luminaire, also as IES or EULUMDAT file
     Luminaire(luminaire::Luminaire),
     /// Measure illuminance, irradiance or spectral irradiance at points of a scene
@@ -49,6 +52,7 @@ pub(crate) fn run(measure: &Measure) -> Result<(), Failure> {
 fn execute(measure: &Measure, cancel: &CancelToken) -> Result<(), Failure> {
     match measure {
         Measure::Color(color) => color::run(color, cancel),
+        Measure::Gonio(gonio) => gonio::run(gonio, cancel),
         Measure::Luminaire(luminaire) => luminaire::run(luminaire, cancel),
         Measure::Lux(lux) => lux::run(lux, cancel),
         Measure::Luminance(luminance) => luminance::run(luminance, cancel),

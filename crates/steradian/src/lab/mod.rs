@@ -2,6 +2,7 @@
 
 pub mod color;
 pub mod glare;
+pub mod gonio;
 pub mod luminaire;
 pub mod meters;
 pub mod plot;
