@@ -30,9 +30,20 @@ fn every_material_and_parameter_is_described() {
     }
 }
 
-/// Classes of `LightSource`, and the one of `AreaLightSource`.
-const LIGHTS: [&str; 8] =
-    ["point", "spot", "goniometric", "projection", "photometric", "diffuse", "distant", "infinite"];
+/// Classes of `LightSource`, the one of `AreaLightSource`, and a sky with parameters of its own.
+const LIGHTS: [&str; 11] = [
+    "point",
+    "spot",
+    "goniometric",
+    "projection",
+    "photometric",
+    "diffuse",
+    "distant",
+    "infinite",
+    "sky",
+    "sun",
+    "bird-riordan",
+];
 
 /// The parameters that the table rows of a section name, as pbrt writes them: `float scale`.
 fn described(section: &str) -> Vec<String> {
@@ -59,18 +70,22 @@ fn lights_have_the_parameters_that_are_described() {
         let value = match parameter.split(' ').next() {
             Some("string") => "\"a\"",
             Some("bool") => "true",
-            Some("point3") => "[0 0 2]",
+            Some("point3" | "vector3") => "[0 0 2]",
             Some("spectrum") => "[400 1 700 1]",
             _ => "1",
         };
         let directive = if class == "diffuse" { "AreaLightSource" } else { "LightSource" };
+        let class = match class {
+            "sky" => "sky\" \"string model\" \"uniform",
+            "bird-riordan" => "sky\" \"string model\" \"bird-riordan",
+            _ => class,
+        };
         let scene = format!("WorldBegin {directive} \"{class}\" \"{parameter}\" {value}");
         let input = Input::Text { name: "doc", bytes: scene.as_bytes(), base: Path::new("") };
         let imported = import(&[input], &MemoryFiles::new());
-        imported
-            .diagnostics
-            .iter()
-            .any(|d| d.message.contains("has no parameter") || d.message.contains("has type"))
+        imported.diagnostics.iter().any(|d| {
+            ["has no parameter", "has type", "amount of its own"].iter().any(|m| d.message.contains(m))
+        })
     };
     for class in LIGHTS {
         let found = sections.iter().find(|(name, _)| *name == class);
@@ -83,9 +98,10 @@ fn lights_have_the_parameters_that_are_described() {
     for class in LIGHTS {
         let taken: Vec<&str> = amounts.iter().map(String::as_str).filter(|a| !refused(class, a)).collect();
         let expected: &[&str] = match class {
-            "distant" => &["float illuminance", "float irradiance"],
+            "distant" | "sky" | "sun" => &["float illuminance", "float irradiance"],
             "infinite" => &["float luminance", "float illuminance", "float irradiance"],
             "diffuse" => &["float power", "float watts", "float luminance"],
+            "bird-riordan" => &[],
             _ => &["float power", "float watts", "float intensity"],
         };
         assert_eq!(taken, expected, "{class}");

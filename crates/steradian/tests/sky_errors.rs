@@ -20,16 +20,16 @@ scene.pbrt:2:34: error: unknown sky model "cei-12"
     );
     expect(
         r#"WorldBegin
-LightSource "sky" "string model" "stormy"
-LightSource "sky"
+LightSource "sky" "string model" "stormy" "float turbidity" 0.1
+LightSource "sky" "float ozone" 0.3
 "#,
         r#"
 scene.pbrt:2:34: error: unknown sky model "stormy"
- 2 | LightSource "sky" "string model" "stormy"
+ 2 | LightSource "sky" "string model" "stormy" "float turbidity" 0.1
    |                                  ^^^^^^^^
   help: known are cie-1 to cie-16, overcast, clear, uniform and bird-riordan
 scene.pbrt:3:13: error: light "sky" needs a parameter "model"
- 3 | LightSource "sky"
+ 3 | LightSource "sky" "float ozone" 0.3
    |             ^^^^^
 "#,
     );

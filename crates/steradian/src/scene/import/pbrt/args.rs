@@ -123,6 +123,11 @@ impl<'c> Args<'c> {
         self.ctx.diagnostics.push(d.with_nearest(&class.value, known.iter().copied()));
     }
 
+    /// Leaves parameters that nobody asks for unmentioned: what they belong to is not known, which is reported.
+    pub(super) fn not_understood(&mut self) {
+        self.understood = false;
+    }
+
     /// Reports a class that is known and cannot be rendered yet.
     pub(super) fn unsupported_class(&mut self, kind: &str, class: &Text) {
         self.understood = false;

@@ -42,6 +42,7 @@ pub(super) fn sky(args: &mut Args<'_>) -> Option<LightKind> {
     args.demand_range("groundreflectance", ground, 0.0, 1.0);
     let Some(model) = model else {
         args.missing("model");
+        args.not_understood();
         return None;
     };
     let kind = match model.value.as_str() {
@@ -95,6 +96,7 @@ fn known_model(name: &Text, args: &mut Args<'_>) -> Option<SkyModel> {
     };
     let known = number.filter(|_| MODELS.contains(&name.value.as_str())).and_then(GeneralSky::of_type);
     if known.is_none() {
+        args.not_understood();
         let d = Diagnostic::error(name.span, format!("unknown sky model \"{}\"", name.value));
         args.ctx.diagnostics.push(match nearest(&name.value, MODELS) {
             Some(n) => d.with_help(format!("did you mean \"{n}\"?")),
