@@ -77,6 +77,6 @@ fn a_damaged_file_of_a_luminaire_is_shown_at_the_place_of_the_fault() {
     let said = desk.run(&["check", "scene.pbrt"]);
     assert_eq!(said.code, Some(1));
     let expected = "a.ies:5:3: error: the angle must lie from 0 to 180 degrees, found -90\n 5 | 0 -90\n   |   ^^^\n\
-                    scene.pbrt:2:43: note: the file is named here\n";
+                    scene.pbrt:2:45: note: the file is named here\n";
     assert!(said.err.starts_with(expected), "{}", said.err);
 }

@@ -1,5 +1,7 @@
 //! The luminaire goniophotometer against closed forms.
 
+#![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod support;
 
 use std::f64::consts::PI;

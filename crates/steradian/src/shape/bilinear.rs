@@ -43,8 +43,9 @@ pub struct Patch {
     pub corners: [Point; 4],
 }
 
-/// Solid angles [sr] above which rectangles are sampled by solid angle, as in pbrt-v4.
-const MIN_SPHERICAL_SAMPLING: f64 = 1e-4;
+/// Solid angles [sr] of rectangles that are sampled by solid angle. Small ones gain nothing; one of nearly a hemisphere is most often
+/// that of a point of the rectangle itself, which rounding puts in front of it and which receives nothing from its own plane.
+const SPHERICAL_SAMPLING: std::ops::RangeInclusive<f64> = 1e-4..=6.22;
 
 fn bilinear<T>(c: [T; 4], u: f64, v: f64) -> T
 where
@@ -159,7 +160,7 @@ impl Patch {
     fn spherical(&self, from: &ReferencePoint) -> Option<SphericalPatch> {
         let (corner, edges) = self.rectangle()?;
         let solid_angle = spherical::rectangle_solid_angle(corner, edges, from.p.p);
-        if solid_angle <= MIN_SPHERICAL_SAMPLING {
+        if !SPHERICAL_SAMPLING.contains(&solid_angle) {
             return None;
         }
         let weights = match from.ns {
