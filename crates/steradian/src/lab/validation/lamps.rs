@@ -112,7 +112,7 @@ fn luminaire() -> Vec<Case> {
     let words = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
     let rows = DISTRIBUTION.map(|(_, values)| words(&values)).join("\n");
     let file = format!(
-        "IES:LM-63-2002\nTILT=NONE\n1 -1 1 7 3 1 2 0 0 0\n1 1 50\n0 15 30 45 60 75 90\n0 45 90\n{rows}\n"
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 7 3 1 2 0 0 0\n1 1 50\n0 15 30 45 60 75 90\n0 45 90\n{rows}\n"
     );
     let source = [0.0, 0.0, 3.0];
     let scene = Text::new().photometric(source, "lamp.ies");
