@@ -8,10 +8,12 @@ use clap::{Args, ValueEnum};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use steradian::color::colorimetry::Xy;
+use steradian::lab::Ending;
 use steradian::lab::color::{
     Choice, Noise, SpectralData, Spot, diagram, light, light_table, object, object_table,
 };
 use steradian::lab::meters::{LuxReading, LuxSettings, MeterPoint, lux};
+use steradian::lab::table::Fact;
 use steradian::render::CancelToken;
 use steradian::scene::nearest;
 use steradian::spectrum::named::{self, named};
@@ -99,7 +101,14 @@ pub(crate) fn run(color: &Color, cancel: &CancelToken) -> Result<(), Failure> {
     };
     if color.reflectance.is_empty() {
         let mut spectra = color.spectrum.iter().map(|s| color.spectrum(s)).collect::<Result<Vec<_>, _>>()?;
-        spectra.extend(color.arriving(cancel)?);
+        let mut facts = Vec::new();
+        for (data, fact) in color.arriving(cancel)? {
+            spectra.push(data);
+            facts.push(fact);
+        }
+        if spectra.is_empty() && cancel.is_cancelled() {
+            return Err(Failure::Interrupted);
+        }
         if spectra.is_empty() {
             return Err("say what to measure, by --spectrum, --point or --reflectance".to_owned().into());
         }
@@ -107,7 +116,9 @@ pub(crate) fn run(color: &Color, cancel: &CancelToken) -> Result<(), Failure> {
         let spots =
             lights.iter().filter_map(|(data, l)| spot(&data.name, l.chromaticity)).collect::<Vec<_>>();
         let title = "chromaticity, CIE 1931";
-        return desk.hand_out(&light_table(&lights, noise), || diagram(title, &spots), cancel);
+        let mut table = light_table(&lights, noise);
+        facts.into_iter().for_each(|f| table.facts.push(f));
+        return desk.hand_out(&table, || diagram(title, &spots), cancel);
     }
     let illuminant = color.spectrum(&color.illuminant)?;
     let things = color.reflectance.iter().map(|s| color.file(s)).collect::<Result<Vec<_>, _>>()?;
@@ -125,8 +136,8 @@ fn spot(name: &str, chromaticity: Option<[Estimate; 4]>) -> Option<Spot> {
 }
 
 impl Color {
-    /// The light at the points of the scene.
-    fn arriving(&self, cancel: &CancelToken) -> Result<Vec<SpectralData>, Failure> {
+    /// The light at the points of the scene, and how it was measured.
+    fn arriving(&self, cancel: &CancelToken) -> Result<Vec<(SpectralData, Fact)>, Failure> {
         if self.point.is_empty() {
             return Ok(Vec::new());
         }
@@ -144,12 +155,23 @@ impl Color {
             .map_err(|e| e.to_string())?;
         let level = format!("{:.6}", 100.0 * session.precision.confidence);
         let level = level.trim_end_matches('0').trim_end_matches('.');
-        let data = |(i, reading): (usize, &LuxReading<Vec<SpectralIrradiance>>)| SpectralData {
-            name: format!("point {}", i + 1),
-            unit: Some(SpectralIrradiance::UNIT.to_owned()),
-            wavelengths: wavelengths.iter().map(|l| f64::from(*l)).collect(),
-            values: reading.total.iter().map(|e| e.estimate()).collect(),
-            confidence: Some(format!("{level} % confidence, statistical only")),
+        let data = |(i, reading): (usize, &LuxReading<Vec<SpectralIrradiance>>)| {
+            let name = format!("point {}", i + 1);
+            let data = SpectralData {
+                name: name.clone(),
+                unit: Some(SpectralIrradiance::UNIT.to_owned()),
+                wavelengths: wavelengths.iter().map(|l| f64::from(*l)).collect(),
+                values: reading.total.iter().map(|e| e.estimate()).collect(),
+                confidence: Some(format!("{level} % confidence, statistical only")),
+            };
+            let MeterPoint { position: [x, y, z], normal: [nx, ny, nz] } = points[i];
+            let value = format!(
+                "spectral irradiance at {x} {y} {z} on a plane that faces {nx} {ny} {nz} [scene units], {} rays, {}, seed {}",
+                reading.effort.rays,
+                reading.effort.note().unwrap_or_else(|| Ending::Precise.name().to_owned()),
+                session.seed
+            );
+            (data, Fact { name, value })
         };
         Ok(readings.iter().enumerate().map(data).collect())
     }

@@ -148,9 +148,11 @@ mod tests {
         ColorRendering::of(&lit, &colors).unwrap()
     }
 
+    type Golden = (&'static str, f64, f64, f64, f64, f64, [f64; 8]);
+
     /// Chromaticity, temperature, Duv, Ra and R1 to R8 by colour-science 0.4.7
     /// (`xtask/tables/make_colorimetry.py --goldens`).
-    const GOLDENS: [(&str, f64, f64, f64, f64, f64, [f64; 8]); 32] = [
+    const GOLDENS: [Golden; 32] = [
         (
             "A",
             0.44756,

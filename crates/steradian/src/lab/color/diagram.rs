@@ -135,9 +135,11 @@ fn planckian_locus(d: &mut Drawing) {
             vec![[p[0] - 3.5 * nx, p[1] - 3.5 * ny], [p[0] + 3.5 * nx, p[1] + 3.5 * ny]],
             Stroke::solid(Ink::BLACK, 1.4),
         );
-        let at = [p[0] + 4.0 * nx + 2.0, p[1] + 4.0 * ny + 10.0];
+        // Low temperatures, where the locus falls to the right, have theirs on the left.
+        let (side, anchor) = if kelvin < 2500.0 { (-6.0, Anchor::End) } else { (2.0, Anchor::Start) };
+        let at = [p[0] + 4.0 * nx + side, p[1] + 4.0 * ny + 10.0];
         let label = if kelvin == 100_000.0 { "10⁵ K".to_owned() } else { format!("{kelvin} K") };
-        d.text(at, label, 10.0, Anchor::Start, Ink::GREY);
+        d.text(at, label, 10.0, anchor, Ink::GREY);
     }
 }
 

@@ -53,7 +53,7 @@ pub fn isolux(grid: &Grid, readings: &[Estimate], title: &str, meters_per_unit: 
         }
     }
     if grid.columns <= NUMBERED && grid.rows <= NUMBERED && width / grid.columns as f64 > 26.0 {
-        numbers(&mut d, &plan, &values);
+        numbers(&mut d, &plan, &shade, &values);
     } else {
         for &level in &marks {
             label(&mut d, &plan, &field, level);
@@ -115,10 +115,13 @@ fn level_text(v: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn numbers(d: &mut Drawing, plan: &Plan, values: &[f64]) {
+fn numbers(d: &mut Drawing, plan: &Plan, shade: &Shade, values: &[f64]) {
     for (i, &v) in values.iter().enumerate() {
         let [x, y] = plan.place([(i % plan.columns) as f64, (i / plan.columns) as f64]);
-        d.text([x, y + 0.35 * 10.0], short(v), 10.0, Anchor::Middle, Ink::BLACK);
+        let Ink { r, g, b } = shade.ink(v);
+        let brightness = 0.3 * f64::from(r) + 0.59 * f64::from(g) + 0.11 * f64::from(b);
+        let ink = if brightness < 110.0 { Ink::WHITE } else { Ink::BLACK };
+        d.text([x, y + 0.35 * 10.0], short(v), 10.0, Anchor::Middle, ink);
     }
 }
 
