@@ -121,6 +121,28 @@ fn direct_and_indirect_light_spectra_and_watts_are_columns_with_units() {
 }
 
 #[test]
+fn receptors_weigh_light_each_in_its_own_way() {
+    // 10 lx of daylight are 10 lx to every receptor, by definition of the equivalent.
+    let daylight = SCENE.replace("[ 300 1 900 1 ] \"float scale\" 90", "\"stdillum-D65\" \"float scale\" 90");
+    let desk = Desk::new(&daylight);
+    for receptor in ["s-cone", "m-cone", "l-cone", "rhodopic", "melanopic"] {
+        let point = ["measure", "lux", "scene.pbrt", "--point", "0,0,0,0,0,1", "-o", "r.json"];
+        desk.run(&[&point[..], &["--receptor", receptor]].concat()).succeeded();
+        let json = desk.json("r.json");
+        let name = json["columns"][7]["name"].as_str().unwrap();
+        assert!(name.contains("equivalent daylight (D65) illuminance"), "{name}");
+        let read = value(&json["rows"][0], name);
+        assert!((read / 10.0 - 1.0).abs() < 0.01, "{receptor}: {read}");
+    }
+    let scotopic = ["measure", "lux", "scene.pbrt", "--point", "0,0,0,0,0,1", "--receptor", "scotopic"];
+    // Daylight has a ratio of scotopic to photopic light of 2.47.
+    let said = desk.run(&[&scotopic[..], &["-o", "n.json"]].concat()).succeeded();
+    assert!(said.out.is_empty());
+    let read = value(&desk.json("n.json")["rows"][0], "scotopic illuminance");
+    assert!((read / 24.7 - 1.0).abs() < 0.015, "{read}");
+}
+
+#[test]
 fn a_grid_alone_is_drawn_as_a_map_and_darkness_is_explained() {
     let desk = Desk::new(SCENE);
     let said = desk

@@ -2,6 +2,7 @@
 //!
 //! Lights of scale 1 have a luminance of 1 cd/m², an intensity of 1 cd or an illuminance of 1 lx, so that all expected numbers are
 //! photometric.
+#![allow(clippy::expect_used, reason = "tests fail by panicking")]
 
 mod support;
 

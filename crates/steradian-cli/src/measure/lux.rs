@@ -12,7 +12,12 @@ use steradian::lab::meters::{
 };
 use steradian::lab::plot::Drawing;
 use steradian::render::CancelToken;
-use steradian::units::Estimate;
+use steradian::scene::RenderJob;
+use steradian::spectrum::photometry::Response;
+use steradian::units::{
+    AlphaOpic, EquivalentDaylight, Estimate, Irradiance, LCone, Luminous, MCone, Measured, Melanopic,
+    Rhodopic, SCone, Scotopic, Unit,
+};
 
 #[derive(Args, Clone, Debug)]
 #[command(after_help = NOTES)]
@@ -35,6 +40,9 @@ pub(crate) struct Lux {
     /// Measure irradiance in W/m² over 360–830 nm instead of illuminance
     #[arg(long)]
     radiant: bool,
+    /// Weigh light as by night, or as one of the eye's receptors does (CIE S 026), instead of as by day
+    #[arg(long, value_enum, value_name = "NAME", conflicts_with_all = ["spectral", "radiant"])]
+    receptor: Option<Receptor>,
     /// Show direct and indirect light as well, each to the precision asked for
     #[arg(long)]
     split: bool,
@@ -45,6 +53,23 @@ pub(crate) struct Lux {
     outputs: Outputs,
     #[command(flatten)]
     sampling: Sampling,
+}
+
+/// Whose response counts instead of that of the eye by day.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Receptor {
+    /// Scotopic illuminance, in lx
+    Scotopic,
+    /// S-cone-opic equivalent daylight illuminance, in lx
+    SCone,
+    /// M-cone-opic equivalent daylight illuminance, in lx
+    MCone,
+    /// L-cone-opic equivalent daylight illuminance, in lx
+    LCone,
+    /// Rhodopic equivalent daylight illuminance, in lx
+    Rhodopic,
+    /// Melanopic equivalent daylight illuminance (melanopic EDI), in lx
+    Melanopic,
 }
 
 const NOTES: &str = "\
@@ -59,7 +84,8 @@ Examples:
   steradian measure lux room.pbrt --grid 0,0,0.8,4,0,0,0,3,0,8,6 -o desk.csv --plot desk.svg
       a working plane of 4 by 3, at a height of 0.8, facing up, in 8 by 6 cells
   steradian measure lux room.pbrt --points - --precision 2% < points.txt
-  steradian measure lux room.pbrt --point 2,1.5,0.8,0,0,1 --spectral 400:700:10 -o spectrum.csv";
+  steradian measure lux room.pbrt --point 2,1.5,0.8,0,0,1 --spectral 400:700:10 -o spectrum.csv
+  steradian measure lux room.pbrt --point 2,1.5,1.2,1,0,0 --receptor melanopic";
 
 pub(crate) fn run(lux: &Lux, cancel: &CancelToken) -> Result<(), Failure> {
     let desk = Desk::new(&lux.outputs)?;
@@ -80,22 +106,35 @@ pub(crate) fn run(lux: &Lux, cancel: &CancelToken) -> Result<(), Failure> {
     let settings = LuxSettings { max_depth: lux.max_depth, aim };
     let job = common::scene(&lux.scenes, &lux.outputs)?;
     let session = lux.sampling.session(cancel);
-    let said = |e: MeterError| Failure::Message(e.to_string());
-    let paper = Paper { lux, points: &points, wavelengths: &wavelengths, settings: &settings };
+    let paper = Paper { job: &job, lux, points: &points, wavelengths: &wavelengths, settings: &settings };
     if !wavelengths.is_empty() {
         let readings = lux::measure_spectral(&job, &points, &wavelengths, &settings, &session);
-        paper.hand_out(desk, &readings.map_err(said)?, &session)
-    } else if lux.radiant {
+        return paper.hand_out(desk, &readings.map_err(said)?, &session);
+    }
+    if lux.radiant {
         let readings = lux::measure_radiant(&job, &points, &settings, &session);
-        paper.hand_out(desk, &readings.map_err(said)?, &session)
-    } else {
-        let readings = lux::measure(&job, &points, &settings, &session);
-        paper.hand_out(desk, &readings.map_err(said)?, &session)
+        return paper.hand_out(desk, &readings.map_err(said)?, &session);
+    }
+    match lux.receptor {
+        None => paper.hand_out(desk, &paper.read::<Luminous>(&session)?, &session),
+        Some(Receptor::Scotopic) => paper.hand_out(desk, &paper.read::<Scotopic>(&session)?, &session),
+        Some(Receptor::SCone) => paper.hand_out(desk, &paper.daylight::<SCone>(&session)?, &session),
+        Some(Receptor::MCone) => paper.hand_out(desk, &paper.daylight::<MCone>(&session)?, &session),
+        Some(Receptor::LCone) => paper.hand_out(desk, &paper.daylight::<LCone>(&session)?, &session),
+        Some(Receptor::Rhodopic) => paper.hand_out(desk, &paper.daylight::<Rhodopic>(&session)?, &session),
+        Some(Receptor::Melanopic) => paper.hand_out(desk, &paper.daylight::<Melanopic>(&session)?, &session),
     }
 }
 
+fn said(e: MeterError) -> Failure {
+    Failure::Message(e.to_string())
+}
+
+type Readings<D> = Vec<LuxReading<Measured<Irradiance, D>>>;
+
 /// What was asked for.
 struct Paper<'a> {
+    job: &'a RenderJob,
     lux: &'a Lux,
     points: &'a [MeterPoint],
     wavelengths: &'a [f32],
@@ -103,6 +142,31 @@ struct Paper<'a> {
 }
 
 impl Paper<'_> {
+    fn read<D: Response>(&self, session: &Session<'_>) -> Result<Readings<D>, Failure>
+    where
+        Irradiance: Unit<D>,
+    {
+        lux::measure_weighted(self.job, self.points, self.settings, session).map_err(said)
+    }
+
+    /// As so much daylight as would excite the receptor alike.
+    fn daylight<A: Response + AlphaOpic>(
+        &self,
+        session: &Session<'_>,
+    ) -> Result<Readings<EquivalentDaylight<A>>, Failure>
+    where
+        Irradiance: Unit<A> + Unit<EquivalentDaylight<A>>,
+    {
+        let readings = self.read::<A>(session)?;
+        let equal = readings.into_iter().map(|r| LuxReading {
+            total: r.total.equivalent_daylight(),
+            direct: r.direct.equivalent_daylight(),
+            indirect: r.indirect.equivalent_daylight(),
+            effort: r.effort,
+        });
+        Ok(equal.collect())
+    }
+
     fn hand_out<Q: Shown>(
         &self,
         desk: Desk,

@@ -5,8 +5,8 @@ use super::super::session::{self, Block, Session};
 use super::contract::Effort;
 use crate::integrator::Tally;
 use crate::sampler::{Randomization, Sampler, SamplerKind};
-use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, LANES, Sampled, Wavelengths, cie};
-use crate::units::{Estimate, LUMENS_PER_WATT};
+use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, LANES, Sampled, Wavelengths, photometry};
+use crate::units::{Estimate, Nm};
 
 /// Samples of a block, one randomisation of a net: enough for the net to pay, few enough for the 32 blocks of the first stage
 /// to be done in a moment.
@@ -18,17 +18,30 @@ const DARK: u64 = 1 << 16;
 /// How a detector responds to wavelengths.
 #[derive(Clone, Copy)]
 pub(super) enum Response<'a> {
-    /// By a weight per wavelength [nm] that is zero outside 360–830 nm and not too far from the eye's sensitivity.
-    Weighted(&'a (dyn Fn(f32) -> f32 + Sync)),
+    /// As the eye or one of its receptors.
+    Weighted(&'a Efficacies),
     /// Each watt within 360–830 nm alike.
     Radiant,
     /// At single wavelengths [nm], each for itself.
     Lines(&'a [f32]),
 }
 
-/// K_m V(λ) [lm/W].
-pub(super) fn photopic(lambda: f32) -> f32 {
-    LUMENS_PER_WATT * cie::y_bar(lambda)
+/// What radiation is worth in a domain, at whole nanometres and linear in between: K_m V(λ) and its like.
+pub(super) struct Efficacies(Vec<f32>);
+
+impl Efficacies {
+    pub(super) fn of<D: photometry::Response>() -> Self {
+        let at = |nm: i32| photometry::efficacy_at::<D>(Nm(nm as f32)).value() as f32;
+        Self((LAMBDA_MIN as i32..=LAMBDA_MAX as i32).map(at).collect())
+    }
+
+    /// At a wavelength within 360–830 nm.
+    pub(super) fn at(&self, lambda: f32) -> f32 {
+        let x = (lambda - LAMBDA_MIN).max(0.0);
+        let below = (x as usize).min(self.0.len() - 2);
+        let t = x - below as f32;
+        self.0[below] * (1.0 - t) + self.0[below + 1] * t
+    }
 }
 
 impl Response<'_> {
@@ -173,12 +186,12 @@ fn take_block<const N: usize, Q>(
             Response::Weighted(weight) => {
                 sampler.start([0, 0], index);
                 let w = Wavelengths::sample_visible(sampler.next_1d());
-                integrate(sums, w, weight, |w, tally| trace(w, &mut sampler, tally));
+                integrate(sums, w, |lambda| weight.at(lambda), |w, tally| trace(w, &mut sampler, tally));
             }
             Response::Radiant => {
                 sampler.start([0, 0], index);
                 let w = Wavelengths::sample_uniform(sampler.next_1d(), LAMBDA_MIN, LAMBDA_MAX);
-                integrate(sums, w, &|_| 1.0, |w, tally| trace(w, &mut sampler, tally));
+                integrate(sums, w, |_| 1.0, |w, tally| trace(w, &mut sampler, tally));
             }
             Response::Lines(lines) => {
                 for (group, lines) in lines.chunks(LANES).enumerate() {
@@ -198,7 +211,7 @@ fn take_block<const N: usize, Q>(
 fn integrate<const N: usize, Q>(
     sums: &mut Sums<N>,
     mut w: Wavelengths,
-    weight: &dyn Fn(f32) -> f32,
+    weight: impl Fn(f32) -> f32,
     trace: impl FnOnce(&mut Wavelengths, &mut Tally) -> [Sampled<Q>; N],
 ) {
     let found = trace(&mut w, &mut sums.tally);
@@ -258,7 +271,8 @@ fn read_lines<const N: usize, Q>(
 mod tests {
     use super::*;
     use crate::render::CancelToken;
-    use crate::units::Unitless;
+    use crate::spectrum::cie;
+    use crate::units::{LUMENS_PER_WATT, Luminous, Unitless};
 
     fn session(cancel: &CancelToken) -> Session<'_> {
         Session { precision: Precision::default(), seed: 1, threads: Some(1), cancel }
@@ -295,7 +309,9 @@ mod tests {
                 }
                 [Sampled::<Unitless>::ONE]
             };
-            let lumens = measure(&session(&cancel), 0, Response::Weighted(&photopic), &[0], trace).single(0);
+            let photopic = Efficacies::of::<Luminous>();
+            let response = Response::Weighted(&photopic);
+            let lumens = measure(&session(&cancel), 0, response, &[0], trace).single(0);
             let expected = f64::from(LUMENS_PER_WATT * cie::Y_INTEGRAL);
             assert!((lumens.value / expected - 1.0).abs() < 0.01 && lumens.half_width < 0.01 * expected);
             let watts = measure(&session(&cancel), 0, Response::Radiant, &[0], trace).single(0);

@@ -5,7 +5,7 @@
 
 use super::super::session::Session;
 use super::super::table::{Cell, Column, Table};
-use super::bench::{self, Raw, Response, photopic};
+use super::bench::{self, Efficacies, Raw, Response};
 use super::contract::{
     DEFAULT_MAX_DEPTH, Effort, MeterError, Shown, check_wavelengths, direction, metering, place,
 };
@@ -14,7 +14,8 @@ use crate::math::warp::{concentric_disk, uniform_cone};
 use crate::math::{Dir, Frame, LocalDir, Point, Ray, Vec2};
 use crate::sampler::Sampler;
 use crate::scene::RenderJob;
-use crate::units::kind::{Radiant, Spectral};
+use crate::spectrum::photometry;
+use crate::units::kind::{Radiant, Spectral, Unit};
 use crate::units::{Luminance, Measured, Radiance};
 
 /// Where a meter stands and where it looks, in the scene's world.
@@ -72,7 +73,24 @@ pub fn measure(
     settings: &LuminanceSettings,
     session: &Session<'_>,
 ) -> Result<Vec<LuminanceReading>, MeterError> {
-    read(job, rays, settings, session, Response::Weighted(&photopic), |raw| Luminance::new(raw.single(0)))
+    measure_weighted(job, rays, settings, session)
+}
+
+/// Radiance as the eye by day or night, or one of its receptors, weighs it: the domain `D` says which; as [`measure`] otherwise.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_weighted<D: photometry::Response>(
+    job: &RenderJob,
+    rays: &[MeterRay],
+    settings: &LuminanceSettings,
+    session: &Session<'_>,
+) -> Result<Vec<LuminanceReading<Measured<Radiance, D>>>, MeterError>
+where
+    Radiance: Unit<D>,
+{
+    let response = Efficacies::of::<D>();
+    read(job, rays, settings, session, Response::Weighted(&response), |raw| Measured::new(raw.single(0)))
 }
 
 /// Radiance [W·m⁻²·sr⁻¹] over 360–830 nm along each of the rays; as [`measure`] otherwise.

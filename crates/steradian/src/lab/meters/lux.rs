@@ -2,14 +2,15 @@
 
 use super::super::session::Session;
 use super::super::table::{Cell, Column, Table};
-use super::bench::{self, Raw, Response, photopic};
+use super::bench::{self, Efficacies, Raw, Response};
 use super::contract::{
     DEFAULT_MAX_DEPTH, Effort, MeterError, Shown, check_wavelengths, metering, normal, place,
 };
 use super::facts::facts;
 use crate::integrator::SensorPoint;
 use crate::scene::RenderJob;
-use crate::units::kind::{Irradiance, Radiant};
+use crate::spectrum::photometry;
+use crate::units::kind::{Irradiance, Radiant, Unit};
 use crate::units::{Illuminance, Measured, SpectralIrradiance};
 
 /// Where a meter lies and which way it faces, in the scene's world.
@@ -77,8 +78,25 @@ pub fn measure(
     settings: &LuxSettings,
     session: &Session<'_>,
 ) -> Result<Vec<LuxReading>, MeterError> {
-    read(job, points, settings, session, Response::Weighted(&photopic), |raw, part| {
-        Illuminance::new(raw.single(part))
+    measure_weighted(job, points, settings, session)
+}
+
+/// Irradiance as the eye by day or night, or one of its receptors, weighs it: the domain `D` says which; as [`measure`] otherwise.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_weighted<D: photometry::Response>(
+    job: &RenderJob,
+    points: &[MeterPoint],
+    settings: &LuxSettings,
+    session: &Session<'_>,
+) -> Result<Vec<LuxReading<Measured<Irradiance, D>>>, MeterError>
+where
+    Irradiance: Unit<D>,
+{
+    let response = Efficacies::of::<D>();
+    read(job, points, settings, session, Response::Weighted(&response), |raw, part| {
+        Measured::new(raw.single(part))
     })
 }
 

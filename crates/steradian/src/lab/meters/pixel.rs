@@ -17,7 +17,7 @@
 
 use super::super::session::Session;
 use super::super::table::{Cell, Column, Table};
-use super::bench::{self, Raw, Response, photopic};
+use super::bench::{self, Efficacies, Raw, Response};
 use super::contract::{DEFAULT_MAX_DEPTH, Effort, MeterError, Shown, metering};
 use super::facts::facts;
 use super::luminance::RadiantRadiance;
@@ -26,8 +26,7 @@ use crate::camera::{Camera, CameraRay, CameraSample, Projection};
 use crate::math::{Ray, Vec2};
 use crate::sampler::Sampler;
 use crate::scene::RenderJob;
-use crate::units::kind::Unit;
-use crate::units::{Illuminance, Luminance, Measured};
+use crate::units::{Illuminance, Irradiance, Luminance, Luminous, Measured, Radiance, Unit};
 use std::f64::consts::PI;
 
 /// A pixel: column and row from 0 at the upper left of the uncropped film.
@@ -87,7 +86,8 @@ pub fn measure(
     settings: &PixelSettings,
     session: &Session<'_>,
 ) -> Result<Vec<PixelReading>, MeterError> {
-    read(job, pixels, settings, session, Response::Weighted(&photopic))
+    let response = Efficacies::of::<Luminous>();
+    read(job, pixels, settings, session, Response::Weighted(&response))
 }
 
 /// Irradiance [W·m⁻²] over 360–830 nm of each of the pixels on the image plane; as [`measure`] otherwise.
@@ -171,13 +171,19 @@ impl Meter<'_> {
     }
 }
 
-fn read<KL: Unit<D>, KE: Unit<D>, D>(
+type Readings<D> = Vec<PixelReading<Measured<Radiance, D>, Measured<Irradiance, D>>>;
+
+fn read<D>(
     job: &RenderJob,
     pixels: &[Pixel],
     settings: &PixelSettings,
     session: &Session<'_>,
     response: Response<'_>,
-) -> Result<Vec<PixelReading<Measured<KL, D>, Measured<KE, D>>>, MeterError> {
+) -> Result<Readings<D>, MeterError>
+where
+    Radiance: Unit<D>,
+    Irradiance: Unit<D>,
+{
     let integrator = metering(job, settings.max_depth)?;
     let n = f_number(job, settings.aperture)?;
     let camera = job.scene.camera();
