@@ -68,7 +68,7 @@ projected solid angle. Discrete directions have rows of their own, with their sh
 precise when the half-width of its interval is --precision of its value, or of --cell-floor of the brightest
 cell, or --floor.
 
-Example: a gold finish in 5 degree steps, and as a material
+Example: a gold finish lit at 45 degrees, and as a material in cells of 5 degrees
   steradian measure gonio scene.pbrt --material gold --incident 45,0 -l 450,550,650 -o gold.csv --plot gold.svg
   steradian measure gonio scene.pbrt --material gold --theta-cells 18 --phi-cells 72 --material-table gold-table.csv
 

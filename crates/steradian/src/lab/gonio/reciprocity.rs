@@ -64,9 +64,9 @@ fn residual(a: &Reading, to: &[&Beam], b: &Reading, fro: &[&Beam], side: Side, i
     let (mut sum, mut difference, mut square) = (0.0, 0.0, 0.0);
     let mut found = Residual::default();
     let one_way = a.face == b.face && side == Side::Reflection;
-    for i in 0..to.len() {
-        for j in if one_way { i + 1 } else { 0 }..fro.len() {
-            let (forth, back) = (&to[i].spectra[index], &fro[j].spectra[index]);
+    for (i, forth) in to.iter().enumerate() {
+        for (j, back) in fro.iter().enumerate().skip(if one_way { i + 1 } else { 0 }) {
+            let (forth, back) = (&forth.spectra[index], &back.spectra[index]);
             let read = |r: &Reading, s: &Scattered, cell: usize| {
                 let flux = s.cells(side).get(cell).map_or(Estimate::exact(0.0), CellFlux::total);
                 let f = r.mean_f(cell, flux);

@@ -124,7 +124,7 @@ fn cells_read_the_mean_of_f_over_them_whatever_the_method() {
                     let cells = beam.spectra[0].cells(side).len();
                     assert!(side == Side::Reflection || (cells > 0) == bsdf.lobes().transmission, "{name}");
                     for index in 0..cells {
-                        let truth = quadrature(&bsdf, light, reading.grid.cell(index), side);
+                        let truth = quadrature(bsdf, light, reading.grid.cell(index), side);
                         for (scattered, truth) in beam.spectra.iter().zip(truth) {
                             let flux = scattered.cells(side)[index].continuous;
                             let t = deviation(&reading, scattered, flux, truth);
@@ -375,7 +375,7 @@ fn intervals_hold_the_truth_in_about_19_of_20_measurements_that_stop_when_they_k
         let grid = CellGrid::regular(2, 6);
         let gonio = Goniometer { grid, method, ..goniometer(vec![from(40.0, 0.0)]) };
         let truth: Vec<f64> =
-            gonio.grid.cells().map(|c| quadrature(&bsdf, light, c, Side::Reflection)[0]).collect();
+            gonio.grid.cells().map(|c| quadrature(bsdf, light, c, Side::Reflection)[0]).collect();
         let runs = 400;
         let mut held = vec![0; truth.len()];
         for seed in 0..runs {
