@@ -178,7 +178,7 @@ impl<'t> Entries<'_, 't> {
             Symmetry::AboutC0 => 2,
             Symmetry::AboutC90 | Symmetry::Quadrant => 4,
         };
-        if n % by == 0 {
+        if n.is_multiple_of(by) {
             return Ok(());
         }
         Err(self.last_error(format!(

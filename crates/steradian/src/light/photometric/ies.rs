@@ -324,7 +324,7 @@ struct Listed<'t> {
 fn read_opening([width, length, height]: [f64; 3], metres: f64, edition: Edition) -> Opening {
     let round = match edition {
         Edition::Of1986 | Edition::Of1991 | Edition::Of1995 => {
-            width < 0.0 && height >= 0.0 || width < 0.0 && length == 0.0
+            width < 0.0 && (height >= 0.0 || length == 0.0)
         }
         Edition::Of2002 | Edition::Of2019 => width < 0.0 && length <= 0.0,
     };
