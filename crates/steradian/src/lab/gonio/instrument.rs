@@ -39,11 +39,11 @@ pub enum Sample<'s, 'j> {
 
 /// Wavelengths that are measured with the same rays.
 struct Group<'s, 'j> {
-    light: Light<'s, 'j>,
+    examined: Examined<'s, 'j>,
     lanes: usize,
 }
 
-enum Light<'s, 'j> {
+enum Examined<'s, 'j> {
     Bsdf(Bsdf<'j>),
     Photons(&'s Patch<'j>, Wavelengths),
 }
@@ -103,9 +103,9 @@ impl Goniometer {
             let outcome = session.run(
                 stream,
                 || Census::new(self.grid.len()),
-                |census, block| match &group.light {
-                    Light::Bsdf(bsdf) => material::block(census, block, bsdf, &setting),
-                    Light::Photons(patch, w) => patch.block(census, block, *w, &setting),
+                |census, block| match &group.examined {
+                    Examined::Bsdf(bsdf) => material::block(census, block, bsdf, &setting),
+                    Examined::Photons(patch, w) => patch.block(census, block, *w, &setting),
                 },
                 |census| if spoilt(census) { 0.0 } else { self.demand(census, group, &session.precision) },
             );
@@ -175,7 +175,7 @@ impl Goniometer {
         let [reflectance, transmittance] =
             [Side::Reflection, Side::Transmission].map(|side| census.total(side, lane, precision));
         let passes = transmittance.value > 0.0 || group.transmits();
-        let rest = matches!(group.light, Light::Photons(..)).then(|| Rest {
+        let rest = matches!(group.examined, Examined::Photons(..)).then(|| Rest {
             absorbed: share(Place::Absorbed),
             lost: share(Place::Lost),
             edge: share(Place::Edge),
@@ -195,17 +195,17 @@ impl Goniometer {
 impl Group<'_, '_> {
     /// Whether anything but discrete directions can be scattered into.
     fn is_continuous(&self) -> bool {
-        match &self.light {
-            Light::Bsdf(bsdf) => bsdf.lobes().is_continuous(),
-            Light::Photons(..) => true,
+        match self.examined {
+            Examined::Bsdf(bsdf) => bsdf.lobes().is_continuous(),
+            Examined::Photons(..) => true,
         }
     }
 
     /// Whether light may pass the sample in a continuum of directions.
     fn transmits(&self) -> bool {
-        match &self.light {
-            Light::Bsdf(bsdf) => bsdf.lobes().transmission,
-            Light::Photons(..) => true,
+        match self.examined {
+            Examined::Bsdf(bsdf) => bsdf.lobes().transmission,
+            Examined::Photons(..) => true,
         }
     }
 }
@@ -213,12 +213,12 @@ impl Group<'_, '_> {
 fn groups<'s, 'j>(sample: Sample<'s, 'j>, wavelengths: &[f32], lanes: usize) -> Vec<Group<'s, 'j>> {
     match sample {
         Sample::Material(probe) => {
-            probe.parts().map(|(bsdf, lanes)| Group { light: Light::Bsdf(*bsdf), lanes }).collect()
+            probe.parts().map(|(bsdf, lanes)| Group { examined: Examined::Bsdf(*bsdf), lanes }).collect()
         }
         Sample::Geometry(patch) => {
             let group = |chunk: &[f32]| {
                 let w = Wavelengths::exactly(std::array::from_fn(|i| chunk[i.min(chunk.len() - 1)]));
-                Group { light: Light::Photons(patch, w), lanes: chunk.len() }
+                Group { examined: Examined::Photons(patch, w), lanes: chunk.len() }
             };
             wavelengths.chunks(lanes).map(group).collect()
         }
