@@ -43,9 +43,8 @@ pub struct Patch {
     pub corners: [Point; 4],
 }
 
-/// Solid angles [sr] of rectangles that are sampled by solid angle. Small ones gain nothing; one of nearly a hemisphere is most often
-/// that of a point of the rectangle itself, which rounding puts in front of it and which receives nothing from its own plane.
-const SPHERICAL_SAMPLING: std::ops::RangeInclusive<f64> = 1e-4..=6.22;
+/// Solid angles [sr] above which rectangles are sampled by solid angle, as in pbrt-v4.
+const MIN_SPHERICAL_SAMPLING: f64 = 1e-4;
 
 fn bilinear<T>(c: [T; 4], u: f64, v: f64) -> T
 where
@@ -81,6 +80,11 @@ impl Patch {
         let c = (q10 - q00).cross(q01 - q11).dot(d);
         let b = q10.cross(d).dot(e11) - a - c;
         let (u0, u1) = quadratic(a, b, c)?;
+        // Nearer than the rounding of f64 a hit is that of the surface which the ray leaves: where a coordinate is exactly zero,
+        // its error bound is too, and the ray begins in the patch itself.
+        const NEAREST: f64 = 1e-12;
+        let reach = [q00, q10, q01, q11].map(|q| q.abs().max_element()).into_iter().fold(0.0, f64::max);
+        let nearest = NEAREST * reach / d.length();
         let mut best: Option<PrimHit> = None;
         // Both roots, if they differ.
         for u in [Some(u0), (u1 != u0).then_some(u1)].into_iter().flatten() {
@@ -102,7 +106,7 @@ impl Patch {
             let rounded = t as f32;
             let inside = (-MARGIN..=1.0 + MARGIN).contains(&v);
             let limit = best.map_or(t_max, |h| h.t);
-            if inside && rounded > 0.0 && rounded <= limit {
+            if inside && t > nearest && rounded > 0.0 && rounded <= limit {
                 best = Some(PrimHit { t: rounded, u: u as f32, v: v.clamp(0.0, 1.0) as f32 });
             }
         }
@@ -160,7 +164,7 @@ impl Patch {
     fn spherical(&self, from: &ReferencePoint) -> Option<SphericalPatch> {
         let (corner, edges) = self.rectangle()?;
         let solid_angle = spherical::rectangle_solid_angle(corner, edges, from.p.p);
-        if !SPHERICAL_SAMPLING.contains(&solid_angle) {
+        if solid_angle <= MIN_SPHERICAL_SAMPLING {
             return None;
         }
         let weights = match from.ns {
@@ -443,6 +447,23 @@ mod tests {
                 Point::new(1.5, 1.4, -0.3),
             ],
             ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_ray_that_begins_in_a_flat_patch_does_not_meet_it() {
+        // z is exactly zero and so is its error bound: nothing lifts the origin off the patch.
+        let corners = [(-0.3, -0.3), (0.3, -0.3), (-0.3, 0.3), (0.3, 0.3)];
+        let patch = Patch { corners: corners.map(|(x, y)| Point::new(x, y, 0.0)) };
+        let mut rng = Pcg32::new(3, 1);
+        for _ in 0..10_000 {
+            let mut at = || 0.6 * rng.next_f32() - 0.3;
+            let (o, d) = (Point::new(at(), at(), 0.0), Vec3::new(at(), at(), 0.7));
+            for d in [d, -d] {
+                assert!(patch.intersect(&Ray { o, d, time: 0.0 }, f32::INFINITY).is_none(), "{o:?} {d}");
+                let before = Ray { o: o - d * 1e-6, d, time: 0.0 };
+                assert!(patch.intersect(&before, f32::INFINITY).is_some_and(|h| h.t < 2e-6), "{o:?} {d}");
+            }
         }
     }
 
