@@ -202,7 +202,7 @@ fn patch_luminance() -> f64 {
 fn reflection() -> Vec<Case> {
     let (zenith, lx, rho) = BEAM;
     let mut cases = Vec::new();
-    for (size, height, above) in [(0.5, 0.2, 0.4), (4.0, 1.0, 3.0), (500.0, 1.0, 3.0)] {
+    for (size, height, above) in [(0.5, 0.2, 0.4), (4.0, 1.0, 3.0), (500.0, 1.0, 100.0)] {
         let patch = rectangle([-0.5 * size, -0.5 * size, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]);
         let scene = Text::new().beam(zenith, lx).with(Surface::Diffuse(rho), &[patch]);
         let points = [
