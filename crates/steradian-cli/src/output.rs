@@ -51,6 +51,14 @@ impl OutputFile {
         Ok(file)
     }
 
+    /// As [`OutputFile::new`] for a file of one kind: another extension is most likely an input, named by mistake.
+    pub(crate) fn of_kind(path: &Path, extension: &str) -> Result<Self, String> {
+        match path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension)) {
+            true => Self::new(path),
+            false => Err(format!("{}: the name of this file ends in .{extension}", path.display())),
+        }
+    }
+
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }

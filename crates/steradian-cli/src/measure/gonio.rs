@@ -118,8 +118,11 @@ pub(crate) fn run(arguments: &Gonio, cancel: &CancelToken) -> Result<(), Failure
         check_table_wavelengths(&wavelengths).map_err(|e| e.to_string())?;
     }
     let desk = Desk::new(&arguments.outputs)?;
-    let file = arguments.material_table.as_ref().or(arguments.klems.as_ref());
-    let file = file.map(|path| OutputFile::new(path)).transpose()?;
+    let file = match (&arguments.material_table, &arguments.klems) {
+        (Some(path), _) => Some(OutputFile::of_kind(path, "csv")?),
+        (None, Some(path)) => Some(OutputFile::of_kind(path, "xml")?),
+        (None, None) => None,
+    };
     let job = match arguments.patch {
         // Warnings are about the scene as a picture, such as that it has no light.
         true => load::read(&arguments.sample.scenes)?.compile(Verbosity::ErrorsOnly)?,
@@ -157,8 +160,10 @@ pub(crate) fn run(arguments: &Gonio, cancel: &CancelToken) -> Result<(), Failure
     let mut table = gonio::table(&name, asked, residuals.as_deref(), detail);
     table.fact("seed", arguments.sampling.seed.to_string());
     if let Some(file) = &file
-        && !cancel.is_cancelled()
+        && cancel.is_cancelled()
     {
+        note(&format!("{} is not written: the measurement was stopped", file.path().display()));
+    } else if let Some(file) = &file {
         let text = match (&arguments.klems, other) {
             (Some(_), Some(other)) => {
                 let (front, back) = if asked.face == Face::Front { (asked, other) } else { (other, asked) };

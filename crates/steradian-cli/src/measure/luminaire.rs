@@ -93,8 +93,9 @@ fn parse_direction(text: &str) -> Result<Direction, String> {
 
 pub(crate) fn run(arguments: &Luminaire, cancel: &CancelToken) -> Result<(), Failure> {
     let desk = Desk::new(&arguments.outputs)?;
-    let file = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::new).transpose();
-    let (ies_file, ldt_file) = (file(&arguments.ies)?, file(&arguments.ldt)?);
+    let file =
+        |path: &Option<PathBuf>, kind| path.as_deref().map(|p| OutputFile::of_kind(p, kind)).transpose();
+    let (ies_file, ldt_file) = (file(&arguments.ies, "ies")?, file(&arguments.ldt, "ldt")?);
     let job = common::scene(&arguments.scenes, &arguments.outputs)?;
     let settings = LuminaireSettings {
         planes: arguments.planes,
@@ -115,6 +116,13 @@ pub(crate) fn run(arguments: &Luminaire, cancel: &CancelToken) -> Result<(), Fai
     }
     let found = luminaire::measure(&job, &settings, &session).map_err(|e| e.to_string())?;
     let luminaire = found.luminaire(&scene);
+    if cancel.is_cancelled() {
+        // A photometric file does not show that its measurement was not finished.
+        for file in [&ies_file, &ldt_file].into_iter().flatten() {
+            note(&format!("{} is not written: the measurement was stopped", file.path().display()));
+        }
+        return hand_out(found.table(&settings, &session), &|| found.drawing());
+    }
     if let Some(file) = ies_file {
         file.write(ies::write(&luminaire, ies::Edition::Of2019).as_bytes())?;
         report(&file, arguments.outputs.quiet);

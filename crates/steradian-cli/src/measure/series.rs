@@ -30,11 +30,11 @@ long names. Options that stand above the first table hold for every instrument t
 File names are relative to the current folder, as on the command line.
 
 Example job.toml:
-  scene = \"room.pbrt\"
   precision = \"2%\"
 
   [[measure]]
   instrument = \"lux\"
+  scene = \"room.pbrt\"
   grid = \"0,0,0.8,4,0,0,0,3,0,9,7\"
   output = [\"lux.csv\", \"lux.json\"]
 
@@ -195,9 +195,11 @@ fn step<'d, 'i>(
     let parsed = commands.clone().try_get_matches_from(&words).and_then(|m| Measure::from_arg_matches(&m));
     let measure = parsed.map_err(|e| {
         let text = e.to_string();
-        let message = text.lines().next().unwrap_or("").trim_start_matches("error: ").to_owned();
+        // The first paragraph is the message; below it stand tips and the usage.
+        let lines = text.lines().map(str::trim).take_while(|l| !l.is_empty());
+        let message = lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned();
         // The option that the message is about, else the measurement.
-        let place = places.iter().find(|(key, _)| text.contains(&format!("--{key}")));
+        let place = places.iter().find(|(key, _)| message.contains(&format!("--{key} ")));
         Fault::new(message, place.map_or(span, |(_, p)| p.clone()))
     })?;
     Ok(Step { measure, command: words.join(" ") })

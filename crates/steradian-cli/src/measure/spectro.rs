@@ -73,8 +73,9 @@ pub(crate) enum Sphere {
 
 const NOTES: &str = "\
 Reflectance, transmittance and absorptance are shares of the power that falls on the material: directional-hemispherical
-for a beam, bihemispherical for diffuse light. By sampling, absorbed photons are counted where they end, so that
-R + T + A tests the material: it is one, unless light is made. Without a --floor, shares below 1 % are measured as
+for a beam, bihemispherical for diffuse light. By sampling, photons are counted where they end: reflected,
+transmitted, or absorbed, which is what becomes of all that is not scattered on. R + T + A exceeds one where a
+material makes light. Without a --floor, shares below 1 % are measured as
 precisely as 1 % would be.
 
 Example (a pane of green glass, 1 mm thick; glass.pbrt):

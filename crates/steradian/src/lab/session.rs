@@ -8,6 +8,7 @@ use super::precision::Precision;
 use crate::math::hash;
 use crate::render::CancelToken;
 use crate::render::schedule::{TileOrder, for_each};
+use std::ops::Range;
 
 /// Blocks of the first stage: Student's t then has 31 degrees of freedom.
 const FIRST_BLOCKS: u64 = 32;
@@ -15,6 +16,9 @@ const FIRST_BLOCKS: u64 = 32;
 /// Shares of a stage that threads take from the queue. Their number, and not that of the threads, decides in which order sums
 /// are formed.
 const SHARES: u64 = 64;
+
+/// Shares that are in work at the same time: enough that threads seldom wait for each other.
+const SHARES_PER_THREAD: u64 = 4;
 
 /// How a measurement is carried out.
 #[derive(Clone, Copy, Debug)]
@@ -96,31 +100,19 @@ impl Session<'_> {
             .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
         let seed = hash::hash_words(&[self.seed, stream]);
         let mut tally = fresh();
-        let (mut done, mut end) = (0, FIRST_BLOCKS);
+        // One block tells how many rays a block takes.
+        let mut done = self.stage(0..1, threads, seed, &fresh, &block, &mut tally);
+        let reach = self.precision.max_rays / tally.rays().max(1);
+        let mut end = FIRST_BLOCKS.min(reach).max(2);
         loop {
-            let shares = SHARES.min(end - done);
-            let bound = |i: u64| done + (end - done) * i / shares;
-            let mut stage: Vec<_> = (0..shares).map(|i| (bound(i)..bound(i + 1), fresh())).collect();
-            for_each(
-                &mut stage,
-                TileOrder::Scanline,
-                threads,
-                || (),
-                |(), (blocks, sum)| {
-                    for index in blocks.clone() {
-                        block(sum, Block { index, seed: hash::combine(seed, index) });
-                    }
-                },
-            );
-            stage.iter().for_each(|(_, sum)| tally.merge(sum));
-            done = end;
+            done += self.stage(done..end, threads, seed, &fresh, &block, &mut tally);
             let needed = demand(&tally);
-            let ending = if !(needed > 1.0) {
+            let ending = if needed <= 1.0 {
                 Some(Ending::Precise)
-            } else if tally.rays() >= self.precision.max_rays {
-                Some(Ending::RayLimit)
             } else if self.cancel.is_cancelled() {
                 Some(Ending::Cancelled)
+            } else if tally.rays() >= self.precision.max_rays {
+                Some(Ending::RayLimit)
             } else {
                 None
             };
@@ -129,12 +121,62 @@ impl Session<'_> {
             }
             // A little more than predicted, so that the next look is most often the last: each look at the data is a chance to
             // stop by luck. At most eightfold, since early predictions are rough, and no further than the rays reach.
-            let growth = (needed * 1.1).clamp(1.1, 8.0);
-            let per_block = (tally.rays() / done).max(1);
+            let growth = if needed.is_nan() { 8.0 } else { (needed * 1.1).clamp(1.1, 8.0) };
+            let per_block = (tally.rays() / done.max(1)).max(1);
             let reach = done.saturating_add((self.precision.max_rays - tally.rays()) / per_block + 1);
             end = ((done as f64 * growth).ceil() as u64).min(reach).max(done + 1);
         }
     }
+
+    /// Takes the blocks, and adds them in the order of their shares. Returns how many were taken: fewer when the user wants no more.
+    fn stage<T: Tally>(
+        &self,
+        blocks: Range<u64>,
+        threads: usize,
+        seed: u64,
+        fresh: &(impl Fn() -> T + Sync),
+        block: &(impl Fn(&mut T, Block) + Sync),
+        tally: &mut T,
+    ) -> u64 {
+        let n = blocks.end - blocks.start;
+        let shares = SHARES.min(n);
+        let bound = |i: u64| blocks.start + n * i / shares;
+        let mut taken = 0;
+        // A few shares at a time: a tally may be large.
+        let at_once = (SHARES_PER_THREAD * threads as u64).max(1);
+        for first in (0..shares).step_by(at_once as usize) {
+            let mut work: Vec<_> = (first..shares.min(first + at_once))
+                .map(|i| Share { blocks: bound(i)..bound(i + 1), taken: 0, sum: fresh() })
+                .collect();
+            for_each(
+                &mut work,
+                TileOrder::Scanline,
+                threads,
+                || (),
+                |(), share| {
+                    for index in share.blocks.clone() {
+                        if self.cancel.is_cancelled() {
+                            break;
+                        }
+                        block(&mut share.sum, Block { index, seed: hash::combine(seed, index) });
+                        share.taken += 1;
+                    }
+                },
+            );
+            for share in &work {
+                tally.merge(&share.sum);
+                taken += share.taken;
+            }
+        }
+        taken
+    }
+}
+
+/// What one thread does at a time.
+struct Share<T> {
+    blocks: Range<u64>,
+    taken: u64,
+    sum: T,
 }
 
 #[cfg(test)]
@@ -203,5 +245,39 @@ mod tests {
         let outcome = exponential(p, 1, 2);
         assert_eq!(outcome.ending, Ending::RayLimit);
         assert!((10_000..10_032).contains(&outcome.tally.rays), "{}", outcome.tally.rays);
+        // A limit below the first stage counts as well; an interval needs two blocks.
+        for (max_rays, expected) in [(1, 32), (100, 96)] {
+            let outcome = exponential(Precision { max_rays, ..p }, 1, 2);
+            assert_eq!((outcome.ending, outcome.tally.rays), (Ending::RayLimit, expected));
+        }
+    }
+
+    #[test]
+    fn who_wants_no_more_waits_for_one_block_only() {
+        let cancel = CancelToken::new();
+        let session = Session { precision: Precision::default(), seed: 1, threads: Some(2), cancel: &cancel };
+        let block = |means: &mut Means, block: Block| {
+            means.moments.add(block.index as f64);
+            means.rays += 1;
+            if block.index == 40 {
+                cancel.cancel();
+            }
+        };
+        let outcome = session.run(0, Means::default, block, |_| 1e9);
+        assert_eq!(outcome.ending, Ending::Cancelled);
+        assert!(
+            (41..=50).contains(&outcome.blocks) && outcome.blocks == outcome.tally.rays,
+            "{}",
+            outcome.blocks
+        );
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_precise() {
+        let cancel = CancelToken::new();
+        let precision = Precision { max_rays: 5000, ..Precision::default() };
+        let session = Session { precision, seed: 1, threads: Some(1), cancel: &cancel };
+        let block = |means: &mut Means, _: Block| means.rays += 1;
+        assert_eq!(session.run(0, Means::default, block, |_| f64::NAN).ending, Ending::RayLimit);
     }
 }

@@ -256,6 +256,14 @@ impl Light {
         }
     }
 
+    /// Where the zenith of a sky is, in render space; `None` for lights without one.
+    pub fn zenith(&self) -> Option<Dir> {
+        match self {
+            Self::Sky(sky) => Some(sky.up()),
+            _ => None,
+        }
+    }
+
     /// Whether the light has no place in the scene.
     pub fn is_infinite(&self) -> bool {
         matches!(

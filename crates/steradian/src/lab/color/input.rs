@@ -22,7 +22,7 @@ pub struct SpectralData {
 /// Which numbers of a table with several quantities or places are meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Choice<'a> {
-    /// Name of the column of values, without its unit; `None` for the first that is not the wavelength.
+    /// Name of the column of values, without its unit; `None` for the first with intervals after the wavelength, else the first with a unit.
     pub column: Option<&'a str>,
     /// Column and word that rows must have; `None` for all rows.
     pub rows: Option<[&'a str; 2]>,
@@ -186,10 +186,19 @@ impl Headings {
         };
         let value = match choice.column {
             Some(name) => find(name)?,
-            // The wavelength may stand beside words and coordinates: the spectral quantity comes after it.
-            None => (lambda + 1..cells.len()).find(|&i| cells[i].1.is_some()).ok_or_else(|| {
-                SpectrumError::NoColumn { line, name: "value [unit]".to_owned(), known: known.clone() }
-            })?,
+            // The wavelength may stand beside words, angles and coordinates: a quantity with intervals is what was measured,
+            // else the first with a unit after the wavelength.
+            None => {
+                let after = || (lambda + 1..cells.len()).filter(|&i| cells[i].1.is_some());
+                let measured = after().find(|&i| find(&format!("{} ±", cells[i].0)).is_ok());
+                measured.or_else(|| after().find(|&i| cells[i].1.as_deref() != Some("°"))).ok_or_else(
+                    || SpectrumError::NoColumn {
+                        line,
+                        name: "value [unit]".to_owned(),
+                        known: known.clone(),
+                    },
+                )?
+            }
         };
         let half_width = find(&format!("{} ±", cells[value].0)).ok();
         let condition = choice.rows.map(|[name, _]| find(name)).transpose()?;

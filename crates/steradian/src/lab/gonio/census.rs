@@ -74,8 +74,11 @@ impl Census {
         let slot = self.slot(place);
         let mut arrived = false;
         for (sum, w) in self.block[slot].iter_mut().zip(weight.to_array()) {
-            *sum += f64::from(w) * factor;
-            arrived |= w != 0.0;
+            // What is no number must not spoil the rest; it counts as absorbed, and is told by the sum of all shares.
+            if w.is_finite() {
+                *sum += f64::from(w) * factor;
+                arrived |= w != 0.0;
+            }
         }
         self.arrivals[slot] += u64::from(arrived);
     }

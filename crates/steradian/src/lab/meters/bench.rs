@@ -60,6 +60,10 @@ struct Sums<const N: usize> {
     channels: Vec<[Moments; N]>,
     /// Sums of the block in work.
     block: Vec<[f64; N]>,
+    /// The most that one sample brought to a channel.
+    largest: Vec<f64>,
+    /// Which parts have been found at all.
+    found: Vec<[bool; N]>,
     tally: Tally,
     samples: u64,
     lit: u64,
@@ -70,6 +74,12 @@ impl<const N: usize> session::Tally for Sums<N> {
     fn merge(&mut self, later: &Self) {
         for (sum, more) in self.channels.iter_mut().flatten().zip(later.channels.iter().flatten()) {
             sum.merge(more);
+        }
+        for (largest, more) in self.largest.iter_mut().zip(&later.largest) {
+            *largest = largest.max(*more);
+        }
+        for (found, more) in self.found.iter_mut().flatten().zip(later.found.iter().flatten()) {
+            *found |= more;
         }
         self.tally = self.tally.merge(later.tally);
         self.samples += later.samples;
@@ -87,6 +97,8 @@ impl<const N: usize> Sums<N> {
         Self {
             channels: vec![[Moments::default(); N]; channels],
             block: vec![[0.0; N]; channels],
+            largest: vec![0.0; channels],
+            found: vec![[false; N]; channels],
             tally: Tally::default(),
             samples: 0,
             lit: 0,
@@ -94,13 +106,35 @@ impl<const N: usize> Sums<N> {
         }
     }
 
-    /// By which factor the blocks must still grow.
+    /// By which factor the blocks must still grow. What has not been found yet, be it a part of the light, gets its chance.
     fn demand(&self, precision: &Precision, wanted: &[usize]) -> f64 {
-        if self.lit == 0 && self.samples < DARK {
+        if self.samples < DARK && self.found.iter().flatten().any(|found| !found) {
             return DARK as f64 / self.samples.max(1) as f64;
         }
-        let numbers = self.channels.iter().flat_map(|parts| wanted.iter().map(|&part| &parts[part]));
-        numbers.map(|m| precision.demand(m.estimate(precision))).fold(0.0, f64::max)
+        let of_channel = |c: usize| {
+            let all = self.estimates(c, precision);
+            wanted.iter().map(move |&part| precision.demand(all[part])).fold(0.0, worse)
+        };
+        (0..self.channels.len()).map(of_channel).fold(0.0, worse)
+    }
+
+    /// The parts of a channel, of which the first is the sum of the others if there are any.
+    ///
+    /// A part that was not found is known to be rare or dim. What it may have brought unseen is bounded, at the level of
+    /// the intervals, as if a sample of it were as bright as the brightest one of the channel: −ln(1 − level)/n of that
+    /// (the rule of three). Of a channel without any light there is nothing to scale the bound by.
+    fn estimates(&self, channel: usize, precision: &Precision) -> [Estimate; N] {
+        let mut all = self.channels[channel].each_ref().map(|m| m.estimate(precision));
+        let unseen = -(1.0 - precision.confidence).ln() / self.samples.max(1) as f64 * self.largest[channel];
+        for part in 0..N {
+            if !self.found[channel][part] {
+                all[part].half_width = unseen;
+                if part > 0 {
+                    all[0].half_width += unseen;
+                }
+            }
+        }
+        all
     }
 
     /// One more path at the given wavelengths.
@@ -114,6 +148,13 @@ impl<const N: usize> Sums<N> {
         finite
     }
 
+    /// Adds what one sample brought to a part of a channel.
+    fn add(&mut self, channel: usize, part: usize, amount: f64) {
+        self.block[channel][part] += amount;
+        self.largest[channel] = self.largest[channel].max(amount);
+        self.found[channel][part] |= amount != 0.0;
+    }
+
     fn close_block(&mut self) {
         for (moments, sums) in self.channels.iter_mut().zip(&mut self.block) {
             for (moments, sum) in moments.iter_mut().zip(sums) {
@@ -122,6 +163,11 @@ impl<const N: usize> Sums<N> {
             }
         }
     }
+}
+
+/// The larger demand, where one that is no number is the largest.
+fn worse(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
 }
 
 /// What a measurement came to: for each channel, the parts of the light.
@@ -168,8 +214,7 @@ pub(super) fn measure<const N: usize, Q>(
         dropped: sums.dropped,
         ending: outcome.ending,
     };
-    let channels =
-        sums.channels.iter().map(|parts| parts.each_ref().map(|m| m.estimate(precision))).collect();
+    let channels = (0..sums.channels.len()).map(|c| sums.estimates(c, precision)).collect();
     Raw { channels, effort }
 }
 
@@ -218,14 +263,18 @@ fn integrate<const N: usize, Q>(
     if !sums.count(&found) {
         return;
     }
+    let mut amounts = [0.0; N];
     for lane in 0..LANES {
         let (lambda, pdf) = (w.lambda()[lane], w.pdf()[lane]);
         if pdf > 0.0 {
             let weight = f64::from(weight(lambda)) / (f64::from(pdf) * LANES as f64);
-            for (sum, part) in sums.block[0].iter_mut().zip(&found) {
-                *sum += weight * f64::from(part[lane]);
+            for (part, found) in found.iter().enumerate() {
+                amounts[part] += weight * f64::from(found[lane]);
             }
         }
+    }
+    for (part, amount) in amounts.into_iter().enumerate() {
+        sums.add(0, part, amount);
     }
 }
 
@@ -255,8 +304,8 @@ fn read_lines<const N: usize, Q>(
             for (lane, &line) in order.iter().enumerate().take(own) {
                 // Each wavelength once, where it is in its own place.
                 if (hero + lane) % LANES == line {
-                    for (sum, part) in sums.block[first + line].iter_mut().zip(&found) {
-                        *sum += f64::from(part[lane]);
+                    for (part, found) in found.iter().enumerate() {
+                        sums.add(first + line, part, f64::from(found[lane]));
                     }
                 }
             }

@@ -89,7 +89,7 @@ pub struct Effort {
     pub samples: u64,
     /// Samples that found light.
     pub lit: u64,
-    /// Samples that were not finite and were left out.
+    /// Samples that were not finite and count as dark.
     pub dropped: u64,
     /// Why no more were taken.
     pub ending: Ending,
@@ -103,7 +103,7 @@ impl Effort {
             notes.push(format!("dark: none of {} paths found light", self.samples));
         }
         if self.dropped > 0 {
-            notes.push(format!("{} samples that were not finite are left out", self.dropped));
+            notes.push(format!("{} samples that were not finite count as dark", self.dropped));
         }
         if self.ending != Ending::Precise {
             notes.push(self.ending.name().to_owned());

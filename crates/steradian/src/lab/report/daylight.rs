@@ -18,6 +18,15 @@ pub fn is_lit_by_skies(job: &RenderJob) -> bool {
     !lights.is_empty() && lights.iter().all(sky)
 }
 
+/// Whether a direction (in the scene's world) is that of the zenith, within a degree: daylight factors are ratios to the
+/// unobstructed *horizontal* plane (CIE S 017, EN 17037). Skies without a zenith of their own leave the choice to the scene.
+pub fn faces_zenith(job: &RenderJob, up: [f64; 3]) -> bool {
+    let Some(up) = DVec3::from(up).try_normalize() else { return false };
+    let Some(up) = Dir::new(job.world_from_render.inverse().vector(up.as_vec3())) else { return false };
+    let cos = 1.0_f32.to_radians().cos();
+    job.scene.lights().iter().filter_map(Light::zenith).all(|zenith| zenith.dot(*up) >= cos)
+}
+
 /// Samples of a block.
 const BLOCK: u32 = 256;
 

@@ -1,6 +1,6 @@
 //! What is measured for a report.
 
-use super::daylight::{DaylightFactors, daylight_factors, is_lit_by_skies, outdoors};
+use super::daylight::{DaylightFactors, daylight_factors, faces_zenith, is_lit_by_skies, outdoors};
 use super::grid::Grid;
 use super::uniformity::{Uniformity, uniformity};
 use super::view::ViewReport;
@@ -82,7 +82,7 @@ pub fn measure_grid(
     }
     let values: Vec<Estimate> = readings.iter().map(|r| r.total.estimate()).collect();
     let outdoors = match grid.normal() {
-        Some(up) if is_lit_by_skies(job) => outdoors(job, up, session),
+        Some(up) if is_lit_by_skies(job) && faces_zenith(job, up) => outdoors(job, up, session),
         _ => None,
     };
     let daylight = outdoors.and_then(|e| daylight_factors(&values, e));

@@ -226,18 +226,20 @@ fn photons(
 /// The directions that a detector sees.
 struct Cone {
     axis: LocalDir,
-    cos: f32,
+    /// The squared chord that its edge makes with the axis: exact for narrow cones, of which the cosine rounds to one.
+    chord2: f32,
 }
 
 impl Cone {
     fn new(view: View) -> Self {
-        Self { axis: view.direction.direction(), cos: view.half_angle.to_radians().cos() as f32 }
+        let chord = 2.0 * (0.5 * view.half_angle.to_radians()).sin();
+        Self { axis: view.direction.direction(), chord2: (chord * chord) as f32 }
     }
 
     /// Whether a direction is inside; for light from below the cone is turned below.
     fn holds(&self, w: LocalDir, from: LocalDir) -> bool {
         let axis = if from.z < 0.0 { Vec3::new(self.axis.x, self.axis.y, -self.axis.z) } else { *self.axis };
-        axis.dot(*w) >= self.cos
+        (axis - *w).length_squared() <= self.chord2
     }
 }
 
