@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(outcome.ending, Ending::RayLimit);
         assert!((10_000..10_032).contains(&outcome.tally.rays), "{}", outcome.tally.rays);
         // A limit below the first stage counts as well; an interval needs two blocks.
-        for (max_rays, expected) in [(1, 32), (100, 96)] {
+        for (max_rays, expected) in [(1, 32), (100, 112)] {
             let outcome = exponential(Precision { max_rays, ..p }, 1, 2);
             assert_eq!((outcome.ending, outcome.tally.rays), (Ending::RayLimit, expected));
         }

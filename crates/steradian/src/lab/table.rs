@@ -237,8 +237,8 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        let expected = "illuminance\n  point         x [m]  illuminance [lx]\n  desk, \"left\"    0.5     104.2 ± 0.2\n  \
-             door           1.25                -\nconfidence: 95 %, statistical only\n";
+        let expected = "illuminance\n  point         x [m]  illuminance [lx]\n  desk, \"left\"    0.5       104.2 ± 0.2\n  \
+             door           1.25                 -\nconfidence: 95 %, statistical only\n";
         assert_eq!(table().to_text(), expected);
     }
 }

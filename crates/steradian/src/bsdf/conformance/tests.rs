@@ -180,7 +180,7 @@ fn radiance_through_a_slab_of_glass_is_that_of_power() {
 
 #[test]
 fn thin_pane_transmits_what_a_slab_does_after_all_internal_reflections() {
-    // R = 2r/(1 + r) for one reflectance r of unpolarised light at both faces.
+    // R = 2r/(1 + r) for the reflectance r of each polarisation at both faces (Stokes 1862), by sines and tangents (Fresnel).
     let cabinet = Cabinet::default();
     let pane = Bsdf::specimens(&cabinet)
         .into_iter()
@@ -188,8 +188,14 @@ fn thin_pane_transmits_what_a_slab_does_after_all_internal_reflections() {
         .unwrap()
         .bsdf;
     for degrees in [0.0, 50.0, 80.0] {
-        let r = fresnel::dielectric(at(degrees).z, 1.5);
-        let expected = 2.0 * r / (1.0 + r);
+        let expected = match f64::from(degrees).to_radians() {
+            0.0 => 2.0 * 0.04 / 1.04,
+            i => {
+                let t = (i.sin() / 1.5).asin();
+                let [s, p] = [(i - t).sin() / (i + t).sin(), (i - t).tan() / (i + t).tan()].map(|r| r * r);
+                s / (1.0 + s) + p / (1.0 + p)
+            }
+        } as f32;
         let side = |uc| pane.sample(at(degrees), uc, Vec2::ZERO, Mode::Radiance).unwrap().side;
         assert_eq!(side(expected - 1e-5), Side::Reflection);
         assert_eq!(side(expected + 1e-5), Side::Transmission);

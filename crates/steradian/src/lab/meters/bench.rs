@@ -15,6 +15,9 @@ const BLOCK: u32 = 128;
 /// A reading without any light is believed after so many samples.
 const DARK: u64 = 1 << 16;
 
+/// That a part of the light is missing is believed after so many samples: four times as many as the first stage has.
+const UNSEEN: u64 = 1 << 14;
+
 /// How a detector responds to wavelengths.
 #[derive(Clone, Copy)]
 pub(super) enum Response<'a> {
@@ -108,8 +111,9 @@ impl<const N: usize> Sums<N> {
 
     /// By which factor the blocks must still grow. What has not been found yet, be it a part of the light, gets its chance.
     fn demand(&self, precision: &Precision, wanted: &[usize]) -> f64 {
-        if self.samples < DARK && self.found.iter().flatten().any(|found| !found) {
-            return DARK as f64 / self.samples.max(1) as f64;
+        let enough = if self.lit == 0 { DARK } else { UNSEEN };
+        if self.samples < enough && self.found.iter().flatten().any(|found| !found) {
+            return enough as f64 / self.samples.max(1) as f64;
         }
         let of_channel = |c: usize| {
             let all = self.estimates(c, precision);
