@@ -53,7 +53,9 @@ impl TwoFlux {
         // b S d = √(K d (K d + 2 S d)).
         let x = (k * (k + 2.0 * s)).sqrt();
         if x < 1e-8 {
-            return Shares { reflectance: s / (1.0 + s), transmittance: 1.0 / (1.0 + s) };
+            // sinh x = x and cosh x = 1 to the last digit.
+            let denominator = 1.0 + k + s;
+            return Shares { reflectance: s / denominator, transmittance: 1.0 / denominator };
         }
         // Times 2 e^(−x), so that nothing overflows.
         let (sinh, cosh) = (-(-2.0 * x).exp_m1(), 1.0 + (-2.0 * x).exp());
