@@ -15,7 +15,7 @@ const BLOCK: u32 = 128;
 /// A reading without any light is believed after so many samples.
 const DARK: u64 = 1 << 16;
 
-/// That a part of the light is missing is believed after so many samples: four times as many as the first stage has.
+/// That a wavelength is dark while others are not is believed after so many samples: four times as many as the first stage has.
 const UNSEEN: u64 = 1 << 14;
 
 /// How a detector responds to wavelengths.
@@ -109,15 +109,23 @@ impl<const N: usize> Sums<N> {
         }
     }
 
-    /// By which factor the blocks must still grow. What has not been found yet, be it a part of the light, gets its chance.
+    /// By which factor the blocks must still grow. Of a part that was not found, what it may have brought unseen must be small
+    /// beside the whole.
     fn demand(&self, precision: &Precision, wanted: &[usize]) -> f64 {
-        let enough = if self.lit == 0 { DARK } else { UNSEEN };
-        if self.samples < enough && self.found.iter().flatten().any(|found| !found) {
-            return enough as f64 / self.samples.max(1) as f64;
+        let until = |enough: u64| enough as f64 / self.samples.max(1) as f64;
+        if self.lit == 0 {
+            return if self.samples < DARK { until(DARK) } else { 0.0 };
         }
         let of_channel = |c: usize| {
+            if self.largest[c] == 0.0 {
+                return if self.samples < UNSEEN { until(UNSEEN) } else { 0.0 };
+            }
             let all = self.estimates(c, precision);
-            wanted.iter().map(move |&part| precision.demand(all[part])).fold(0.0, worse)
+            let of_part = |&part: &usize| match self.found[c][part] {
+                true => precision.demand(all[part]),
+                false => all[part].half_width / precision.target(all[0].value),
+            };
+            wanted.iter().map(of_part).fold(0.0, worse)
         };
         (0..self.channels.len()).map(of_channel).fold(0.0, worse)
     }
