@@ -46,7 +46,7 @@ fn wrong_arguments_are_refused_with_what_is_expected() {
     let render = |argument: &'static str, value: &'static str| {
         desk.run(&["render", "scene.pbrt", &format!("{argument}={value}")])
     };
-    desk.run(&["rendr"]).refused("a similar subcommand exists: 'render'");
+    desk.run(&["renderr"]).refused("a similar subcommand exists: 'render'");
     desk.run(&["scene.pbrt"]).refused("a command is missing; try: steradian render scene.pbrt");
     desk.run(&["render", "--sp", "4"]).refused("--spp");
     render("--spp", "0").refused("0 is not in 1..=16777216");
