@@ -1,7 +1,6 @@
 //! Developer chores of Steradian: `cargo xtask <command>`.
 
 mod bench;
-mod bench_mitsuba;
 mod faults;
 mod imports;
 mod layers;
@@ -20,8 +19,6 @@ const USAGE: &str = "usage: cargo xtask <command>
             render the scenes of the collection that have reference pictures and compare them
   bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N] [--output FILE]
             measure speed against the peers that are there, and write one report
-  bench-mitsuba [--python EXE]
-            samples per second against Mitsuba 3 on its Cornell box; run with --release
   mitsuba-bsdfs [--python EXE] [--bsdf FILE]
             f and densities of our scattering functions against those of Mitsuba 3, FILE among them
 ";
@@ -34,7 +31,6 @@ fn main() -> ExitCode {
         Some("faults") => faults::run(&root),
         Some("references") => references::run(&root, &arguments[1..]),
         Some("bench") => bench::run(&root, &arguments[1..]),
-        Some("bench-mitsuba") => bench_mitsuba::run(&root, &arguments[1..]),
         Some("mitsuba-bsdfs") => mitsuba_bsdfs::run(&arguments[1..]),
         _ => Err(USAGE.to_owned()),
     };

@@ -3,17 +3,18 @@
 mod options;
 mod report;
 pub(crate) mod row;
+mod samples;
 
 use options::Options;
 use row::Row;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// A part of the benchmark: its name on the command line and how it is run. `Err` says why nothing was measured; the other
 /// parts go on.
 type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
-const SECTIONS: &[Section] = &[];
+const SECTIONS: &[Section] = &[("samples", samples::measure)];
 
 /// `bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N]
 /// [--output FILE]`.
@@ -49,4 +50,15 @@ pub(crate) fn run(root: &Path, arguments: &[String]) -> Result<String, String> {
         std::fs::write(path, &page).map_err(|e| format!("{}: {e}", path.display()))?;
     }
     Ok(page)
+}
+
+/// Our program as users build it.
+fn program(root: &Path) -> Result<PathBuf, String> {
+    let status = Command::new("cargo")
+        .args(["build", "--release", "--quiet", "--package", "steradian-cli"])
+        .current_dir(root)
+        .status()
+        .map_err(|e| format!("cargo: {e}"))?;
+    let name = format!("target/release/steradian{}", std::env::consts::EXE_SUFFIX);
+    if status.success() { Ok(root.join(name)) } else { Err("the build failed".to_owned()) }
 }
