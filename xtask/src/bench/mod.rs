@@ -1,5 +1,6 @@
 //! The benchmark: every figure that the project claims about its speed, measured against its peers in one run.
 
+mod error;
 mod options;
 mod report;
 pub(crate) mod row;
@@ -14,7 +15,7 @@ use std::process::Command;
 /// parts go on.
 type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
-const SECTIONS: &[Section] = &[("samples", samples::measure)];
+const SECTIONS: &[Section] = &[("samples", samples::measure), ("error", error::measure)];
 
 /// `bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N]
 /// [--output FILE]`.
