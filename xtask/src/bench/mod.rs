@@ -1,10 +1,12 @@
 //! The benchmark: every figure that the project claims about its speed, measured against its peers in one run.
 
 mod error;
+pub(crate) mod job;
 mod options;
 mod report;
 pub(crate) mod row;
 mod samples;
+mod scaling;
 
 use options::Options;
 use row::Row;
@@ -15,7 +17,8 @@ use std::process::Command;
 /// parts go on.
 type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
-const SECTIONS: &[Section] = &[("samples", samples::measure), ("error", error::measure)];
+const SECTIONS: &[Section] =
+    &[("samples", samples::measure), ("error", error::measure), ("scaling", scaling::measure)];
 
 /// `bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N]
 /// [--output FILE]`.

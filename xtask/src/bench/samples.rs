@@ -1,5 +1,6 @@
 //! Samples per second and cold start against Mitsuba 3, on the same scenes with the same path lengths.
 
+use super::job;
 use super::options::Options;
 use super::row::{Row, Target};
 use std::io::{BufRead as _, BufReader, Lines, Write as _};
@@ -116,20 +117,10 @@ fn command(python: &Path, variant: &str, scene: &Subject, spp: u32) -> Command {
 
 /// Seconds of one render of ours, without reading the scene.
 fn render(scene: &Subject, seed: usize) -> Result<f64, String> {
-    use steradian::render::{CancelToken, RenderOptions, Silent};
-    use steradian::scene::Disk;
-    use steradian::scene::import::pbrt::{Input, import};
-    let mut imported = import(&[Input::File(&scene.pbrt)], &Disk);
-    let job = imported
-        .scene
-        .take()
-        .and_then(|desc| steradian::scene::compile(desc, &Disk, &mut imported.diagnostics));
-    let mut job = job.ok_or_else(|| format!("{} does not compile", scene.pbrt.display()))?;
+    let mut job = job::compile_file(&scene.pbrt)?;
     job.sampling.seed = seed as u64;
     job.sampling.spp = scene.spp;
-    let rendered = steradian::render::render(&job, &RenderOptions::default(), &Silent, &CancelToken::new())
-        .map_err(|e| e.to_string())?;
-    Ok(rendered.report.elapsed.as_secs_f64())
+    Ok(job::render(&job, None)?.elapsed.as_secs_f64())
 }
 
 /// Measures all scenes.
