@@ -44,6 +44,18 @@ impl Precision {
         (estimate.half_width / self.target(estimate.value)).powi(2)
     }
 
+    /// The demand of the worst of several estimates; 0 for none.
+    pub fn worst_demand(&self, estimates: impl IntoIterator<Item = Estimate>) -> f64 {
+        estimates.into_iter().map(|e| self.demand(e)).fold(0.0, worse)
+    }
+
+    /// What a quantity of which `samples` samples have shown nothing may still amount to, at the level of the intervals:
+    /// light is then less frequent than −ln(1 − level)/samples (the rule of three), and none is taken to be brighter than
+    /// `brightest`, a single sample's worth.
+    pub fn unseen(&self, samples: u64, brightest: f64) -> f64 {
+        -(1.0 - self.confidence).ln() / samples.max(1) as f64 * brightest
+    }
+
     /// Half-width of the interval of a mean with the given standard error, by Student's t.
     pub fn half_width(&self, standard_error: f64, degrees_of_freedom: u64) -> f64 {
         // Beyond any float's reach for no degrees of freedom: nothing is known.
@@ -61,6 +73,11 @@ impl Precision {
         };
         quantile * standard_error
     }
+}
+
+/// The larger demand, where one that is no number is the largest.
+pub(crate) fn worse(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
 }
 
 /// Mean and variance of independent observations, in one pass (Welford 1962; merged as in Chan et al. 1979).

@@ -8,6 +8,7 @@ use super::precision::Precision;
 use crate::math::hash;
 use crate::render::CancelToken;
 use crate::render::schedule::{TileOrder, for_each};
+use crate::sampler::{Randomization, Sampler, SamplerKind};
 use std::ops::Range;
 
 /// Blocks of the first stage: Student's t then has 31 degrees of freedom.
@@ -40,6 +41,19 @@ pub struct Block {
     pub index: u64,
     /// Seed for everything that is random in it.
     pub seed: u64,
+}
+
+impl Block {
+    /// A part of the block with random numbers of its own.
+    #[must_use]
+    pub fn split(&self, part: u64) -> Self {
+        Self { seed: hash::combine(self.seed, part), ..*self }
+    }
+
+    /// The low-discrepancy set of the block, of `samples` points: sample `i` begins with `start([0, 0], i)`.
+    pub fn sampler(&self, samples: u32) -> Sampler {
+        Sampler::new(SamplerKind::PaddedSobol(Randomization::FastOwen), samples, [1, 1], self.seed)
+    }
 }
 
 /// What blocks add up to.

@@ -1,6 +1,6 @@
 //! The instrument: from a sample and directions of incidence to readings of all cells.
 
-use super::super::precision::Precision;
+use super::super::precision::{Precision, worse};
 use super::super::probe::Probe;
 use super::super::session::{Ending, Session, Tally};
 use super::beam::{Face, Incidence};
@@ -133,10 +133,10 @@ impl Goniometer {
                 };
                 let discrete = |cell| census.share(Place::Discrete(side, cell), lane, &bounds);
                 let flux_only = Precision { absolute: 0.0, ..*precision };
-                worst = worst.max(self.worst((0..self.grid.len()).map(f), precision));
+                worst = worse(worst, self.worst((0..self.grid.len()).map(f), precision));
                 // What never arrived in a discrete direction is no direction.
                 let found = (0..self.grid.len()).map(discrete).filter(|e| e.value > 0.0);
-                worst = worst.max(self.worst(found, &flux_only));
+                worst = worse(worst, self.worst(found, &flux_only));
             }
         }
         worst
@@ -148,7 +148,7 @@ impl Goniometer {
         let with_floor = Precision { absolute: precision.absolute.max(floor), ..*precision };
         // With nothing anywhere there is nothing to be precise about.
         let wanted = estimates.filter(|_| brightest > 0.0);
-        wanted.map(|e| with_floor.demand(e)).fold(0.0, f64::max)
+        with_floor.worst_demand(wanted)
     }
 
     fn scattered(

@@ -6,7 +6,7 @@ use super::cells::CellGrid;
 use super::census::{Census, Place};
 use crate::bsdf::{Bsdf, Mode, Side};
 use crate::math::{LocalDir, Vec2};
-use crate::sampler::{Randomization, Sampler, SamplerKind};
+use crate::sampler::Sampler;
 use crate::units::{Density, PdfSolidAngle};
 
 /// Draws of a block from the scattering function.
@@ -49,8 +49,7 @@ pub(super) struct Setting<'a> {
 
 /// One block: light scattered by `bsdf`.
 pub(super) fn block(census: &mut Census, block: Block, bsdf: &Bsdf<'_>, setting: &Setting<'_>) {
-    let kind = SamplerKind::PaddedSobol(Randomization::FastOwen);
-    let mut sampler = Sampler::new(kind, DRAWS, [1, 1], block.seed);
+    let mut sampler = block.sampler(DRAWS);
     let lobes = bsdf.lobes();
     let of_cells = if setting.method == Method::Counting || !lobes.is_continuous() { 0 } else { CELL_DRAWS };
     let grid = setting.grid;

@@ -5,7 +5,7 @@ use super::census::{Census, Place};
 use super::material::Setting;
 use crate::bsdf::{Mode, Side};
 use crate::math::{Bounds3, Dir, LocalDir, Normal, Point, Ray, Transform, Vec2, Vec3};
-use crate::sampler::{Randomization, Sampler, SamplerKind};
+use crate::sampler::Sampler;
 use crate::scene::{RenderJob, Scene};
 use crate::spectrum::{Sampled, Wavelengths};
 use crate::units::Unitless;
@@ -103,8 +103,7 @@ impl<'j> Patch<'j> {
 
     /// One block of photons.
     pub(super) fn block(&self, census: &mut Census, block: Block, w: Wavelengths, setting: &Setting<'_>) {
-        let kind = SamplerKind::PaddedSobol(Randomization::FastOwen);
-        let mut sampler = Sampler::new(kind, PHOTONS, [1, 1], block.seed);
+        let mut sampler = block.sampler(PHOTONS);
         for i in 0..PHOTONS {
             sampler.start([0, 0], i);
             self.photon(census, &mut sampler, w, setting);

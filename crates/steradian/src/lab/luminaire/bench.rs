@@ -8,9 +8,9 @@ use crate::lab::session::Block;
 use crate::light::photometric::Interpolation;
 use crate::light::{Light, LightTarget};
 use crate::math::warp::uniform_sphere;
-use crate::math::{Dir, Frame, Ray, Vec2, Vec3, hash};
+use crate::math::{Dir, Frame, Ray, Vec2, Vec3};
 use crate::render::setup;
-use crate::sampler::{Randomization, Sampler, SamplerKind};
+use crate::sampler::Sampler;
 use crate::scene::RenderJob;
 use crate::shape::ReferencePoint;
 use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, LANES, Sampled, Wavelengths, cie};
@@ -123,7 +123,7 @@ impl<'j> Bench<'j> {
 
     pub(super) fn take_table(&self, grid: &Grid, cells: &mut Cells, block: Block) {
         for cell in 0..grid.cells() {
-            let mut sampler = new_sampler(BLOCK, hash::combine(block.seed, cell as u64));
+            let mut sampler = block.split(cell as u64).sampler(BLOCK);
             for index in 0..BLOCK {
                 sampler.start([0, 0], index);
                 let around = sampler.next_1d();
@@ -142,7 +142,7 @@ impl<'j> Bench<'j> {
 
     /// Φ = ∫ I dω over the sphere.
     pub(super) fn take_flux(&self, sum: &mut Cells, block: Block) {
-        let mut sampler = new_sampler(FLUX_BLOCK, block.seed);
+        let mut sampler = block.sampler(FLUX_BLOCK);
         for index in 0..FLUX_BLOCK {
             sampler.start([0, 0], index);
             let d = Dir::new_unchecked(uniform_sphere(sampler.next_2d()));
@@ -213,8 +213,4 @@ impl<'j> Bench<'j> {
 struct Window {
     ray: Ray,
     area: f64,
-}
-
-fn new_sampler(n: u32, seed: u64) -> Sampler {
-    Sampler::new(SamplerKind::PaddedSobol(Randomization::FastOwen), n, [1, 1], seed)
 }

@@ -79,13 +79,11 @@ impl Cells {
         }
     }
 
-    /// Cells that found no light among n samples: with the session's confidence, light is less frequent than −ln(1 − c)/n, and
-    /// none is assumed to be brighter than the brightest sample of the whole measurement.
+    /// What cells that found no light may have missed is bounded by the brightest sample of the whole measurement.
     pub(super) fn estimates(&self, precision: &Precision) -> Vec<Estimate> {
-        let dark = |c: &CellSum| -(1.0 - precision.confidence).ln() / c.samples.max(1) as f64 * self.largest;
         let estimate = |c: &CellSum| match c.is_lit {
             true => c.moments.estimate(precision),
-            false => Estimate { value: 0.0, half_width: dark(c) },
+            false => Estimate { value: 0.0, half_width: precision.unseen(c.samples, self.largest) },
         };
         self.cells.iter().map(estimate).collect()
     }
@@ -95,6 +93,6 @@ impl Cells {
         let peak = estimates.iter().map(|e| e.value).fold(0.0, f64::max);
         let floor = precision.absolute.max(precision.relative * DIM * peak);
         let precision = Precision { absolute: floor, ..*precision };
-        estimates.iter().map(|e| precision.demand(*e)).fold(0.0, f64::max)
+        precision.worst_demand(estimates)
     }
 }

@@ -1,10 +1,10 @@
 //! From paths to readings: spectral responses, blocks of samples and their sums.
 
-use super::super::precision::{Moments, Precision};
+use super::super::precision::{Moments, Precision, worse};
 use super::super::session::{self, Block, Session};
 use super::contract::Effort;
 use crate::integrator::Tally;
-use crate::sampler::{Randomization, Sampler, SamplerKind};
+use crate::sampler::Sampler;
 use crate::spectrum::{LAMBDA_MAX, LAMBDA_MIN, LANES, Sampled, Wavelengths, photometry};
 use crate::units::{Estimate, Nm};
 
@@ -132,12 +132,11 @@ impl<const N: usize> Sums<N> {
 
     /// The parts of a channel, of which the first is the sum of the others if there are any.
     ///
-    /// A part that was not found is known to be rare or dim. What it may have brought unseen is bounded, at the level of
-    /// the intervals, as if a sample of it were as bright as the brightest one of the channel: −ln(1 − level)/n of that
-    /// (the rule of three). Of a channel without any light there is nothing to scale the bound by.
+    /// A part that was not found is known to be rare or dim; what it may have brought unseen is bounded. Of a channel
+    /// without any light there is nothing to scale the bound by.
     fn estimates(&self, channel: usize, precision: &Precision) -> [Estimate; N] {
         let mut all = self.channels[channel].each_ref().map(|m| m.estimate(precision));
-        let unseen = -(1.0 - precision.confidence).ln() / self.samples.max(1) as f64 * self.largest[channel];
+        let unseen = precision.unseen(self.samples, self.largest[channel]);
         for part in 0..N {
             if !self.found[channel][part] {
                 all[part].half_width = unseen;
@@ -175,11 +174,6 @@ impl<const N: usize> Sums<N> {
             }
         }
     }
-}
-
-/// The larger demand, where one that is no number is the largest.
-fn worse(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }
 
 /// What a measurement came to: for each channel, the parts of the light.
@@ -236,8 +230,7 @@ fn take_block<const N: usize, Q>(
     response: Response<'_>,
     trace: &impl Fn(&mut Wavelengths, &mut Sampler, &mut Tally) -> [Sampled<Q>; N],
 ) {
-    let kind = SamplerKind::PaddedSobol(Randomization::FastOwen);
-    let mut sampler = Sampler::new(kind, BLOCK, [1, 1], block.seed);
+    let mut sampler = block.sampler(BLOCK);
     for index in 0..BLOCK {
         match response {
             Response::Weighted(weight) => {

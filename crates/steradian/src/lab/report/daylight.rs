@@ -4,7 +4,6 @@ use crate::lab::{Block, Moments, Session, Tally};
 use crate::light::Light;
 use crate::math::warp::cosine_hemisphere;
 use crate::math::{Dir, Frame};
-use crate::sampler::{Randomization, Sampler, SamplerKind};
 use crate::scene::RenderJob;
 use crate::spectrum::{LANES, Wavelengths, cie};
 use crate::units::{Estimate, Illuminance, LUMENS_PER_WATT};
@@ -63,8 +62,7 @@ pub fn outdoors(job: &RenderJob, up: [f64; 3], session: &Session<'_>) -> Option<
         sum * f64::from(LUMENS_PER_WATT)
     };
     let block = |sum: &mut Sum, block: Block| {
-        let kind = SamplerKind::PaddedSobol(Randomization::FastOwen);
-        let mut sampler = Sampler::new(kind, BLOCK, [1, 1], block.seed);
+        let mut sampler = block.sampler(BLOCK);
         let mut total = 0.0;
         for index in 0..BLOCK {
             sampler.start([0, 0], index);

@@ -4,7 +4,7 @@ use super::counts::{Count, Fate, Ledger, Quantity};
 use super::readings::{Reading, Spectrum, SphereReadings};
 use super::setup::{Face, Incidence, Method, Setup, SpectroError, View};
 use crate::bsdf::{Bsdf, Mode, Side};
-use crate::lab::precision::Precision;
+use crate::lab::precision::{Precision, worse};
 use crate::lab::probe::Probe;
 use crate::lab::session::{Block, Ending, Session};
 use crate::lab::subject::Subject;
@@ -157,14 +157,12 @@ impl<'j> Bench<'j, '_> {
         let fates = [Fate::Reflected, Fate::Transmitted, Fate::Absorbed].map(Quantity::Fate);
         let demand = |ledger: &Ledger| {
             let of = |lane: usize| {
-                let shares =
-                    fates.iter().map(move |q| precision.demand(ledger.estimate(lane, *q, &precision)));
-                let viewed = cone.is_some().then(|| {
-                    precision.demand(ledger.estimate(lane, Quantity::Viewed, &precision).scaled(scale))
-                });
-                shares.chain(viewed).fold(0.0, f64::max)
+                let shares = fates.iter().map(|q| ledger.estimate(lane, *q, &precision));
+                let viewed =
+                    cone.is_some().then(|| ledger.estimate(lane, Quantity::Viewed, &precision).scaled(scale));
+                precision.worst_demand(shares.chain(viewed))
             };
-            (0..lanes).map(of).fold(0.0, f64::max)
+            (0..lanes).map(of).fold(0.0, worse)
         };
         self.stream += 1;
         let outcome = self.session.run(self.stream, Ledger::default, block, demand);

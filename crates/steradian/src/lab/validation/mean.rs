@@ -6,7 +6,6 @@ use super::contract::Part;
 use crate::integrator::{self, Metering, SensorPoint};
 use crate::math::{BoundedPoint, Normal, Point, Vec3};
 use crate::radiometry::opening::Rectangle;
-use crate::sampler::{Randomization, Sampler, SamplerKind};
 use crate::scene::RenderJob;
 use crate::spectrum::{LANES, Wavelengths, cie};
 use crate::units::{Estimate, LUMENS_PER_WATT};
@@ -75,8 +74,7 @@ pub(super) fn illuminance(
         0,
         Sums::default,
         |sums, block| {
-            let kind = SamplerKind::PaddedSobol(Randomization::FastOwen);
-            let mut sampler = Sampler::new(kind, BLOCK, [1, 1], block.seed);
+            let mut sampler = block.sampler(BLOCK);
             let mut sum = 0.0;
             for index in 0..BLOCK {
                 sampler.start([0, 0], index);
