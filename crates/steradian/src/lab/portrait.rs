@@ -1,6 +1,8 @@
 //! Charts of how a material scatters.
 
-use super::plot::{Axis, Chart, Curve, Dash, Heading, Ink, Polar, Ray, Scale, series_ink, wavelength_ink};
+use super::plot::{
+    Axis, Chart, Curve, Dash, Heading, Ink, Polar, Ray, Scale, Zero, series_ink, wavelength_ink,
+};
 use super::probe::{AlbedoReading, Angles, Probe, ProbeError};
 use super::subject::Subject;
 use crate::bsdf::Mode;
@@ -89,7 +91,7 @@ pub fn lobes(subject: &Subject<'_>, view: &View) -> Result<Polar, ProbeError> {
     let scale = if probe.is_continuous() { view.scale } else { Scale::Linear };
     let title =
         format!("{}: scattered light, incident from the left at {}", subject.name(), angles.join(", "));
-    Ok(Polar { title, radius, scale, curves, rays })
+    Ok(Polar { title, radius, scale, zero: Zero::Top, curves, rays })
 }
 
 /// The lobes of one direction of light at all wavelengths.

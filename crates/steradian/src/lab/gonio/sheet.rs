@@ -1,6 +1,6 @@
 //! Readings as a table and as a plot.
 
-use super::super::plot::{Curve, Dash, Drawing, Heading, Polar, Ray, Scale, series_ink};
+use super::super::plot::{Curve, Dash, Drawing, Heading, Polar, Ray, Scale, Zero, series_ink};
 use super::super::probe::Angles;
 use super::super::table::{Cell as Entry, Column, Table};
 use super::beam::Incidence;
@@ -183,7 +183,15 @@ pub fn plot(sample: &str, reading: &Reading) -> Drawing {
         }
     }
     let radius = "mean f of a cell [1/sr]".to_owned();
-    Polar { title: format!("goniophotometer: {sample}"), radius, scale: Scale::Linear, curves, rays }.draw()
+    Polar {
+        title: format!("goniophotometer: {sample}"),
+        radius,
+        scale: Scale::Linear,
+        zero: Zero::Top,
+        curves,
+        rays,
+    }
+    .draw()
 }
 
 /// Readings along the plane of incidence, of each side.

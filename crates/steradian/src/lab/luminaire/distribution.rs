@@ -2,7 +2,7 @@
 
 use super::cells::DIM;
 use super::contract::LuminaireSettings;
-use crate::lab::plot::{Curve, Drawing, Polar, Scale, series_ink};
+use crate::lab::plot::{Curve, Drawing, Polar, Scale, Zero, series_ink};
 use crate::lab::session::{Ending, Session};
 use crate::lab::table::{Cell, Column, Table};
 use crate::light::photometric::{Label, Luminaire, Opening, Outline, PhotometricWeb};
@@ -112,9 +112,10 @@ where
             _ => vec![curve(0, 0.0), curve(1, 90.0)],
         };
         Polar {
-            title: format!("flux {}; γ from the nadir, which is at the top", self.flux),
+            title: format!("flux {}; γ from the nadir", self.flux),
             radius: format!("{} [{}]", <Intensity as Unit<D>>::NAME, <Intensity as Unit<D>>::UNIT),
             scale: Scale::Linear,
+            zero: Zero::Bottom,
             curves,
             rays: Vec::new(),
         }

@@ -21,7 +21,7 @@ pub use chart::{Axis, Chart, Scale};
 pub use curve::Curve;
 pub use drawing::{Anchor, Dash, Drawing, Ink, Mark, Run, Stroke, Text, text_width};
 pub use palette::{series_ink, wavelength_ink};
-pub use polar::{Heading, Polar, Ray};
+pub use polar::{Heading, Polar, Ray, Zero};
 pub use svg::svg;
 
 /// A chart of curves over linear axes as an `<svg>` element, for a file of its own or inside of HTML.

@@ -31,6 +31,16 @@ pub enum Heading {
     Out,
 }
 
+/// Where the chart has its angle 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Zero {
+    /// At the top, as the normal of a surface that is looked at from the side.
+    #[default]
+    Top,
+    /// At the bottom, as the nadir below a luminaire.
+    Bottom,
+}
+
 /// A polar chart: angle to the normal, and a radius.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polar {
@@ -40,6 +50,8 @@ pub struct Polar {
     pub radius: String,
     /// Scale of the radius, which begins at zero where it is linear.
     pub scale: Scale,
+    /// Where angle 0 is.
+    pub zero: Zero,
     /// Curves of angle to the normal [degrees], in (−180, 180], and radius; one without points is a line of the legend.
     pub curves: Vec<Curve>,
     /// Arrows.
@@ -52,13 +64,15 @@ struct Frame {
     radius: f64,
     /// Largest angle that is drawn [degrees]: 90 or 180.
     reach: f64,
+    /// 1 when angle 0 is at the top, −1 at the bottom.
+    up: f64,
 }
 
 impl Frame {
     fn at(&self, angle: f64, fraction: f64) -> [f64; 2] {
         let (sin, cos) = angle.to_radians().sin_cos();
         let r = fraction * self.radius;
-        [self.centre[0] + r * sin, self.centre[1] - r * cos]
+        [self.centre[0] + r * sin, self.centre[1] - self.up * r * cos]
     }
 
     fn arc(&self, fraction: f64) -> Vec<[f64; 2]> {
@@ -68,8 +82,8 @@ impl Frame {
 }
 
 impl Polar {
-    /// The chart on a sheet of the nominal size: the upper half of the circle, all of it when something lies below
-    /// the surface.
+    /// The chart on a sheet of the nominal size: the half of the circle around angle 0, all of it when something lies
+    /// beyond 90°.
     pub fn draw(&self) -> Drawing {
         let mut d = Drawing::new(WIDTH, HEIGHT);
         let largest = Curve::extent(&self.curves, 1).map_or(0.0, |[_, hi]| hi);
@@ -103,12 +117,16 @@ impl Polar {
         // Numbers stand around the circle.
         let (top, bottom, side) = (58.0, HEIGHT - 44.0, 34.0);
         let half_width = 0.5 * room - side;
+        let up = if self.zero == Zero::Top { 1.0 } else { -1.0 };
         if reach > 90.0 {
             let radius = half_width.min(0.5 * (bottom - top) - 8.0);
-            Frame { centre: [0.5 * room + 6.0, 0.5 * (top + bottom)], radius, reach }
+            Frame { centre: [0.5 * room + 6.0, 0.5 * (top + bottom)], radius, reach, up }
         } else {
             let radius = half_width.min(bottom - top - 26.0);
-            Frame { centre: [0.5 * room + 6.0, top + 0.5 * (bottom - 26.0 - top + radius)], radius, reach }
+            // The numbers of the radius stand on the other side of the straight edge.
+            let (lo, hi) = if up > 0.0 { (top, bottom - 26.0) } else { (top + 20.0, bottom) };
+            let radius = radius.min(hi - lo);
+            Frame { centre: [0.5 * room + 6.0, 0.5 * (lo + hi + up * radius)], radius, reach, up }
         }
     }
 
@@ -128,7 +146,7 @@ impl Polar {
         d.line(f.arc(1.0), Stroke::solid(Ink::GREY, 1.0));
         d.line(vec![f.at(-90.0, 1.0), f.at(90.0, 1.0)], Stroke::solid(Ink::BLACK, 1.4));
         d.line(vec![f.centre, f.at(0.0, 1.0)], Stroke { dash: Dash::Dashed, ..grid });
-        // Numbers of the radius below the surface to the right, where a half circle has nothing to show; numbers that
+        // Numbers of the radius beyond the straight edge to the right, where a half circle has nothing to show; numbers that
         // would touch the one before are left out.
         let mut free = f.centre[0] - 1.0;
         for &r in &ticks.at {
@@ -140,8 +158,14 @@ impl Polar {
                 continue;
             }
             free = x + half + 6.0;
-            d.line(vec![[x, y], [x, y + 4.0]], Stroke::solid(Ink::BLACK, 1.0));
-            d.text([x, y + 16.0], label, SMALL, Anchor::Middle, Ink::BLACK);
+            d.line(vec![[x, y], [x, y + 4.0 * f.up]], Stroke::solid(Ink::BLACK, 1.0));
+            d.text(
+                [x, y + 16.0 * f.up + if f.up > 0.0 { 0.0 } else { 0.7 * SMALL }],
+                label,
+                SMALL,
+                Anchor::Middle,
+                Ink::BLACK,
+            );
         }
     }
 }
@@ -170,29 +194,37 @@ mod tests {
     use super::*;
     use crate::lab::plot::drawing::Mark;
 
-    #[test]
-    fn a_lambertian_lobe_is_a_circle_that_touches_the_surface() {
-        let points: Vec<_> = (-90..=90).map(|a| [f64::from(a), f64::from(a).to_radians().cos()]).collect();
-        let curve = Curve::new("", Ink::new(9, 9, 9), points);
+    /// The curve of a Lambertian lobe as it is drawn.
+    fn lambertian(zero: Zero) -> Vec<[f64; 2]> {
+        let points = (-90..=90).map(|a| [f64::from(a), f64::from(a).to_radians().cos()]).collect();
         let polar = Polar {
             title: String::new(),
             radius: String::new(),
             scale: Scale::Linear,
-            curves: vec![curve],
+            zero,
+            curves: vec![Curve::new("", Ink::new(9, 9, 9), points)],
             rays: vec![],
         };
-        let lines: Vec<_> = polar.draw().marks.into_iter().collect();
-        let lobe = lines.iter().find_map(|m| match m {
+        let lobe = polar.draw().marks.into_iter().find_map(|m| match m {
             Mark::Line { points, stroke } if stroke.ink == Ink::new(9, 9, 9) => Some(points),
             _ => None,
         });
-        let lobe = lobe.unwrap();
-        let (top, foot) = (lobe[90], lobe[0]);
-        let centre = [foot[0], 0.5 * (top[1] + foot[1])];
-        let radius = 0.5 * (foot[1] - top[1]);
-        for p in lobe {
-            let r = (p[0] - centre[0]).hypot(p[1] - centre[1]);
-            assert!((r - radius).abs() < 1e-6 * radius, "{p:?}");
+        lobe.unwrap()
+    }
+
+    #[test]
+    fn a_lambertian_lobe_is_a_circle_that_touches_the_surface() {
+        for (zero, up) in [(Zero::Top, 1.0), (Zero::Bottom, -1.0)] {
+            let lobe = lambertian(zero);
+            let (tip, foot) = (lobe[90], lobe[0]);
+            let centre = [foot[0], 0.5 * (tip[1] + foot[1])];
+            // Heights of a sheet grow downwards.
+            let radius = 0.5 * (foot[1] - tip[1]) * up;
+            assert!(radius > 10.0, "{zero:?}");
+            for p in lobe {
+                let r = (p[0] - centre[0]).hypot(p[1] - centre[1]);
+                assert!((r - radius).abs() < 1e-6 * radius, "{p:?}");
+            }
         }
     }
 }
