@@ -7,6 +7,7 @@ mod report;
 pub(crate) mod row;
 mod samples;
 mod scaling;
+mod scenes;
 
 use options::Options;
 use row::Row;

@@ -3,6 +3,7 @@
 use super::job;
 use super::options::Options;
 use super::row::{Row, Target};
+use super::scenes::{self, Kind};
 use std::io::{BufRead as _, BufReader, Lines, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -205,5 +206,16 @@ fn cornell_box(root: &Path) -> Subject {
 }
 
 fn subjects(root: &Path) -> Result<Vec<Subject>, String> {
-    Ok(vec![cornell_box(root)])
+    let folder = root.join("target/bench/scenes");
+    let own = |kind: Kind, name| -> Result<Subject, String> {
+        let written = scenes::write(kind, &folder)?;
+        let size = [written.width, written.height];
+        let bounces = written.max_depth - 1;
+        Ok(Subject { name, pbrt: written.pbrt, peer: written.mitsuba, size, bounces, spp: 64 })
+    };
+    Ok(vec![
+        cornell_box(root),
+        own(Kind::Interior, "furnished room")?,
+        own(Kind::Glass, "glass and metal under a sky")?,
+    ])
 }
