@@ -3,11 +3,11 @@
 //! Both kernels decide alike: the box test is conservative and only prunes, and the triangle test performs the same
 //! roundings in the same order, unfused, in both.
 
-use super::tree::{LANES, Node, Packet, WIDTH};
-use crate::math::{Ray, float};
+use super::tree::{Child, LANES, Node, Packet, Tree, WIDTH};
+use crate::math::{Bounds3, Ray, Vec3, float};
 use crate::shape::watertight::Shear;
 
-/// A ray prepared for box tests.
+/// A ray prepared for box tests by differences: (plane − o)/d.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxRay {
     origin: [f32; 3],
@@ -17,40 +17,51 @@ pub(super) struct BoxRay {
     enter: [usize; 3],
 }
 
-impl BoxRay {
-    #[inline(always)]
-    pub(super) fn new(ray: &Ray) -> Self {
-        let negative = |axis: usize| usize::from(ray.d[axis].is_sign_negative());
-        Self {
-            origin: ray.o.0.to_array(),
-            inverse: [1.0 / ray.d.x, 1.0 / ray.d.y, 1.0 / ray.d.z],
-            enter: [negative(0), 2 + negative(1), 4 + negative(2)],
-        }
-    }
-}
-
 /// Factor on the exit distance that outweighs the rounding of both distances (Ize 2013) and of the shear of the
 /// triangle test, so that a box never hides a triangle that the ray passes.
-const EXIT_SLACK: f32 = 1.0 + 2.0 * float::gamma(6);
+pub(super) const EXIT_SLACK: f32 = 1.0 + 2.0 * float::gamma(8);
 
 /// Distances at which the ray enters the children, valid where the mask of [`Kernel::boxes`] is set.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Entries(pub(super) [f32; WIDTH]);
 
+/// What the test of a packet found, a bit per lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lanes {
+    /// Which triangles the ray may meet.
+    pub(super) met: u32,
+    /// Of these, which edge functions are all positive, and so exactly.
+    pub(super) positive: u32,
+    /// Of these, which edge functions are all negative, and so exactly.
+    pub(super) negative: u32,
+}
+
 pub(super) trait Kernel: Copy {
+    /// What box tests need of a ray.
+    type BoxRay: Copy;
+
+    /// Prepares a ray for a tree within `bounds`; `None` for one that this kernel cannot test: not finite, or, where
+    /// the kernel says so, with numbers near the ends of the range of floats.
+    fn prepare(self, ray: &Ray, bounds: &Bounds3) -> Option<(Self::BoxRay, Shear)>;
+
     /// Which children's boxes the ray meets in [0, `t_max`] (bit per child), and where it enters them.
     ///
-    /// Where a plane distance is 0·∞ = NaN (the ray runs in the plane of a face) the plane is ignored.
-    fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32;
+    /// Where a plane distance is 0·∞ = NaN (the ray runs in the plane of a face) the plane is ignored. Vacant
+    /// children are never met.
+    fn boxes(self, node: &Node, ray: &Self::BoxRay, t_max: f32, entries: &mut Entries) -> u32;
 
-    /// Which triangles the ray may meet in (0, `t_max`] (bit per lane): a superset of those that
-    /// [`Shear::intersect`] accepts.
-    fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> u32;
+    /// Which triangles the ray may meet in (0, `t_max`]: a superset of those that [`Shear::intersect`] accepts.
+    fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> Lanes;
 
-    /// Starts loading a node that will be needed soon.
-    fn prefetch(self, node: &Node);
+    /// Starts loading a node or the first packet of a leaf that will be needed soon.
+    fn prefetch(self, tree: &Tree, child: Child);
 }
+
+/// Bound on the rounding of [`Kernel::triangles`]'s Σ U z per cube of the largest |coordinate| of the sheared
+/// corners, in units of ε: of each sheared coordinate 4 (of at most twice the largest), of each edge function
+/// 2·(2·8) + 3·2, of each of the three products that and 1 more, and 3 of their sum; rounded up generously.
+const DEPTH_ERROR: f32 = 256.0 * float::MACHINE_EPSILON;
 
 /// The kernel that this processor runs, found once when the structure is built.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +86,21 @@ impl KernelChoice {
 pub(super) struct Portable;
 
 impl Kernel for Portable {
+    type BoxRay = BoxRay;
+
+    #[inline(always)]
+    fn prepare(self, ray: &Ray, _bounds: &Bounds3) -> Option<(BoxRay, Shear)> {
+        // A NaN passes every box, vacant ones included.
+        let sound = ray.o.is_finite() && ray.d.is_finite() && ray.d != Vec3::ZERO;
+        let negative = |axis: usize| usize::from(ray.d[axis].is_sign_negative());
+        let box_ray = BoxRay {
+            origin: ray.o.0.to_array(),
+            inverse: [1.0 / ray.d.x, 1.0 / ray.d.y, 1.0 / ray.d.z],
+            enter: [negative(0), 2 + negative(1), 4 + negative(2)],
+        };
+        sound.then(|| (box_ray, Shear::new(ray)))
+    }
+
     #[inline(always)]
     fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32 {
         let mut enter = [0.0_f32; WIDTH];
@@ -98,7 +124,7 @@ impl Kernel for Portable {
     }
 
     #[inline(always)]
-    fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> u32 {
+    fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> Lanes {
         let [ax, ay, az] = shear.axes;
         let [sx, sy] = shear.factors;
         let [ox, oy, oz] = shear.origin;
@@ -113,21 +139,22 @@ impl Kernel for Portable {
         type Projected = ([f32; LANES], [f32; LANES], [f32; LANES]);
         let edge = |p: &Projected, q: &Projected, i: usize| p.0[i] * q.1[i] - p.1[i] * q.0[i];
         let limit = t_max * EXIT_SLACK;
-        let mut mask = 0;
+        let mut lanes = Lanes { met: 0, positive: 0, negative: 0 };
         for i in 0..LANES {
             let (u, v, w) = (edge(&c, &b, i), edge(&a, &c, i), edge(&b, &a, i));
-            let negative = u < 0.0 || v < 0.0 || w < 0.0;
-            let positive = u > 0.0 || v > 0.0 || w > 0.0;
             let t = [a.2[i], b.2[i], c.2[i]].map(|z| z * shear.inverse_z);
             let behind = t.iter().all(|&t| t < 0.0);
             let beyond = t.iter().all(|&t| t > limit);
-            mask |= u32::from(!((negative && positive) || behind || beyond)) << i;
+            let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+            lanes.met |= u32::from(!((least < 0.0 && most > 0.0) || behind || beyond)) << i;
+            lanes.positive |= u32::from(u > 0.0 && v > 0.0 && w > 0.0) << i;
+            lanes.negative |= u32::from(u < 0.0 && v < 0.0 && w < 0.0) << i;
         }
-        mask
+        lanes
     }
 
     #[inline(always)]
-    fn prefetch(self, _node: &Node) {}
+    fn prefetch(self, _tree: &Tree, _child: Child) {}
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -135,37 +162,93 @@ pub(super) mod avx2 {
     //! The same tests with AVX2 intrinsics.
     #![expect(unsafe_code, reason = "SIMD intrinsics need it")]
 
-    use super::{BoxRay, EXIT_SLACK, Entries, Kernel, Node, Packet, Shear};
+    use super::{
+        Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, Ray, Shear, Tree, float,
+    };
     use std::arch::x86_64::*;
 
-    /// Proof that the processor has AVX2.
+    /// Proof that the processor has AVX2 and FMA.
     #[derive(Clone, Copy, Debug)]
     pub(in super::super) struct Avx2(());
 
     impl Avx2 {
         /// The kernel, if this processor can run it.
         pub(in super::super) fn detect() -> Option<Self> {
-            is_x86_feature_detected!("avx2").then_some(Self(()))
+            (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Self(()))
+        }
+    }
+
+    /// A ray prepared for box tests by one fused operation a plane: plane·(1/d) − o/d.
+    ///
+    /// The rounding of o/d is an absolute error, so that it is subtracted once rounded up and once rounded down.
+    #[derive(Clone, Copy, Debug)]
+    pub(in super::super) struct FusedRay {
+        inverse: [__m256; 3],
+        /// o/d, not below the exact value.
+        above: [__m256; 3],
+        /// o/d, not above the exact value.
+        below: [__m256; 3],
+        /// Offsets in bytes of the rows of [`Node::bounds`] in which the ray enters; it leaves in the neighbours.
+        enter: [usize; 3],
+    }
+
+    /// Bytes of a row of [`Node::bounds`].
+    const ROW: usize = 32;
+
+    /// Components of the direction below this part of the largest count as zero.
+    const STILL: f32 = 1e-18;
+    /// Components below this count as zero, too: their inverses would be near the end of the range of floats.
+    const LEAST: f32 = 1e-19;
+    const MAX_OFFSET: f32 = 1e37;
+    /// Bound on the rounding of o·(1/d) and of what is added to it.
+    const ROUNDING: f32 = 4.0 * float::MACHINE_EPSILON;
+
+    /// Lets the ray stand still along axes on which it hardly moves: within all of the tree it passes less than
+    /// `reach`·|d|, for which the slabs of that axis are widened. The numbers are 1/d, o/d, and the margin of o/d.
+    #[cold]
+    #[inline(never)]
+    fn flatten(ray: &Ray, bounds: &Bounds3, numbers: &mut [[f32; 4]; 3]) {
+        let size = ray.d.abs().max_element();
+        let least = LEAST.max(STILL * size);
+        let corner = bounds.min.abs().max(bounds.max.abs());
+        let reach = 4.0 * (corner + ray.o.abs()).element_sum() / size;
+        for k in 0..4 {
+            let axis = k % 3;
+            if !(ray.d[axis].abs() >= least) {
+                let inverse = (1.0 / least).copysign(ray.d[axis]);
+                let offset = ray.o[axis] * inverse;
+                numbers[0][k] = inverse;
+                numbers[1][k] = offset;
+                numbers[2][k] = offset.abs() * ROUNDING + reach;
+            }
         }
     }
 
     impl Kernel for Avx2 {
+        type BoxRay = FusedRay;
+
         #[inline(always)]
-        fn boxes(self, node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32 {
-            // SAFETY: a value of this type exists only where AVX2 was detected.
+        fn prepare(self, ray: &Ray, bounds: &Bounds3) -> Option<(FusedRay, Shear)> {
+            // SAFETY: a value of this type exists only where AVX2 and FMA were detected.
+            unsafe { prepare(ray, bounds) }
+        }
+
+        #[inline(always)]
+        fn boxes(self, node: &Node, ray: &FusedRay, t_max: f32, entries: &mut Entries) -> u32 {
+            // SAFETY: a value of this type exists only where AVX2 and FMA were detected.
             unsafe { boxes(node, ray, t_max, entries) }
         }
 
         #[inline(always)]
-        fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> u32 {
+        fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> Lanes {
             // SAFETY: a value of this type exists only where AVX2 was detected.
             unsafe { triangles(packet, shear, t_max) }
         }
 
         #[inline(always)]
-        fn prefetch(self, node: &Node) {
-            let p = std::ptr::from_ref(node).cast::<i8>();
-            // SAFETY: prefetching has no effect on memory; every address is inside or just behind the node.
+        fn prefetch(self, tree: &Tree, child: Child) {
+            let p = child.address(tree);
+            // SAFETY: prefetching has no effect on memory, whatever the address.
             unsafe {
                 _mm_prefetch::<_MM_HINT_T0>(p);
                 _mm_prefetch::<_MM_HINT_T0>(p.wrapping_add(64));
@@ -175,22 +258,88 @@ pub(super) mod avx2 {
         }
     }
 
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn boxes(node: &Node, ray: &BoxRay, t_max: f32, entries: &mut Entries) -> u32 {
-        let distance = |row: usize, axis: usize| {
-            // SAFETY: rows are 32-byte aligned arrays of eight f32.
-            let plane = unsafe { _mm256_load_ps(node.bounds[row].as_ptr()) };
-            let from_origin = _mm256_sub_ps(plane, _mm256_set1_ps(ray.origin[axis]));
-            _mm256_mul_ps(from_origin, _mm256_set1_ps(ray.inverse[axis]))
-        };
-        let (mut enter, mut exit) = (_mm256_setzero_ps(), _mm256_set1_ps(t_max));
-        for axis in 0..3 {
-            let near = ray.enter[axis];
-            // max and min return their second operand when the first is NaN.
-            enter = _mm256_max_ps(distance(near, axis), enter);
-            exit = _mm256_min_ps(distance(near ^ 1, axis), exit);
+    /// All in vectors: numbers that pass through memory in pieces and come back as vectors stall every ray.
+    #[inline(always)]
+    unsafe fn prepare(ray: &Ray, bounds: &Bounds3) -> Option<(FusedRay, Shear)> {
+        let sign = _mm_set1_ps(-0.0);
+        // The fourth lane repeats the first, so that it never decides.
+        let d = _mm_set_ps(ray.d.x, ray.d.z, ray.d.y, ray.d.x);
+        let o = _mm_set_ps(ray.o.x, ray.o.z, ray.o.y, ray.o.x);
+        let length = _mm_andnot_ps(sign, d);
+        let size = _mm_max_ps(length, _mm_shuffle_ps::<0b00_00_10_01>(length, length));
+        let size = _mm_max_ps(size, _mm_shuffle_ps::<0b01_00_01_10>(length, length));
+        let size = _mm_shuffle_ps::<0>(size, size);
+        let mut inverse = _mm_div_ps(_mm_set1_ps(1.0), d);
+        let mut offset = _mm_mul_ps(o, inverse);
+        let rounding = _mm_mul_ps(_mm_andnot_ps(sign, offset), _mm_set1_ps(ROUNDING));
+        let mut margin = _mm_add_ps(rounding, _mm_set1_ps(f32::MIN_POSITIVE));
+        let least = _mm_max_ps(_mm_set1_ps(LEAST), _mm_mul_ps(size, _mm_set1_ps(STILL)));
+        let z = (_mm_movemask_ps(_mm_cmpeq_ps(length, size)) as u32).trailing_zeros() as usize;
+        let z = z.min(2);
+        let mut inverses = [0.0_f32; 4];
+        // SAFETY: the array holds four f32.
+        unsafe { _mm_storeu_ps(inverses.as_mut_ptr(), inverse) };
+        let inverse_z = inverses[z];
+        if _mm_movemask_ps(_mm_cmpge_ps(length, least)) != 0xf {
+            let mut numbers = [[0.0; 4]; 3];
+            // SAFETY: each row holds four f32.
+            unsafe {
+                _mm_storeu_ps(numbers[0].as_mut_ptr(), inverse);
+                _mm_storeu_ps(numbers[1].as_mut_ptr(), offset);
+                _mm_storeu_ps(numbers[2].as_mut_ptr(), margin);
+            }
+            flatten(ray, bounds, &mut numbers);
+            // SAFETY: as above.
+            unsafe {
+                inverse = _mm_loadu_ps(numbers[0].as_ptr());
+                offset = _mm_loadu_ps(numbers[1].as_ptr());
+                margin = _mm_loadu_ps(numbers[2].as_ptr());
+            }
         }
+        let largest = _mm_add_ps(_mm_andnot_ps(sign, offset), margin);
+        // Comparisons that NaN fails.
+        let tame = _mm_and_ps(
+            _mm_cmplt_ps(largest, _mm_set1_ps(MAX_OFFSET)),
+            _mm_cmplt_ps(length, _mm_set1_ps(f32::INFINITY)),
+        );
+        if _mm_movemask_ps(tame) != 0xf {
+            return None;
+        }
+        let axes = |v: __m128| {
+            [
+                _mm256_broadcastss_ps(v),
+                _mm256_broadcastss_ps(_mm_shuffle_ps::<1>(v, v)),
+                _mm256_broadcastss_ps(_mm_shuffle_ps::<2>(v, v)),
+            ]
+        };
+        let negative = _mm_movemask_ps(d) as usize;
+        let fused = FusedRay {
+            inverse: axes(inverse),
+            above: axes(_mm_add_ps(offset, margin)),
+            below: axes(_mm_sub_ps(offset, margin)),
+            enter: [
+                (negative & 1) * ROW,
+                2 * ROW + (negative >> 1 & 1) * ROW,
+                4 * ROW + (negative >> 2 & 1) * ROW,
+            ],
+        };
+        Some((fused, Shear::along(ray, z, inverse_z)))
+    }
+
+    #[inline(always)]
+    unsafe fn boxes(node: &Node, ray: &FusedRay, t_max: f32, entries: &mut Entries) -> u32 {
+        let rows = std::ptr::from_ref(&node.bounds).cast::<u8>();
+        let distance = |row: usize, axis: usize, offset: __m256| {
+            // SAFETY: `entered_rows` gives offsets of rows, which are 32-byte aligned arrays of eight f32.
+            let plane = unsafe { _mm256_load_ps(rows.add(row).cast()) };
+            _mm256_fmsub_ps(plane, ray.inverse[axis], offset)
+        };
+        let near = |axis: usize| distance(ray.enter[axis], axis, ray.above[axis]);
+        let far = |axis: usize| distance(ray.enter[axis] ^ ROW, axis, ray.below[axis]);
+        let enter =
+            _mm256_max_ps(_mm256_max_ps(near(0), near(1)), _mm256_max_ps(near(2), _mm256_setzero_ps()));
+        let exit =
+            _mm256_min_ps(_mm256_min_ps(far(0), far(1)), _mm256_min_ps(far(2), _mm256_set1_ps(t_max)));
         let exit = _mm256_mul_ps(exit, _mm256_set1_ps(EXIT_SLACK));
         let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, exit)) as u32;
         // SAFETY: the array is 32-byte aligned and holds eight f32.
@@ -198,9 +347,8 @@ pub(super) mod avx2 {
         mask
     }
 
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn triangles(packet: &Packet, shear: &Shear, t_max: f32) -> u32 {
+    #[inline(always)]
+    unsafe fn triangles(packet: &Packet, shear: &Shear, t_max: f32) -> Lanes {
         let [ax, ay, az] = shear.axes;
         let (sx, sy) = (_mm_set1_ps(shear.factors[0]), _mm_set1_ps(shear.factors[1]));
         let [ox, oy, oz] = shear.origin;
@@ -211,7 +359,7 @@ pub(super) mod avx2 {
             let z = _mm_sub_ps(load(az), oz);
             let x = _mm_add_ps(_mm_sub_ps(load(ax), ox), _mm_mul_ps(sx, z));
             let y = _mm_add_ps(_mm_sub_ps(load(ay), oy), _mm_mul_ps(sy, z));
-            (x, y, _mm_mul_ps(z, _mm_set1_ps(shear.inverse_z)))
+            (x, y, z)
         };
         let (a, b, c) = (project(0), project(1), project(2));
         let edge = |p: (__m128, __m128, __m128), q: (__m128, __m128, __m128)| {
@@ -219,16 +367,42 @@ pub(super) mod avx2 {
         };
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         let zero = _mm_setzero_ps();
-        // A NaN (overflow) counts as neither sign and leaves the decision to the exact test.
-        let negative =
-            _mm_or_ps(_mm_or_ps(_mm_cmplt_ps(u, zero), _mm_cmplt_ps(v, zero)), _mm_cmplt_ps(w, zero));
-        let positive =
-            _mm_or_ps(_mm_or_ps(_mm_cmpgt_ps(u, zero), _mm_cmpgt_ps(v, zero)), _mm_cmpgt_ps(w, zero));
-        let missed = _mm_and_ps(negative, positive);
-        let nearest = _mm_min_ps(_mm_min_ps(a.2, b.2), c.2);
-        let farthest = _mm_max_ps(_mm_max_ps(a.2, b.2), c.2);
-        let behind = _mm_cmplt_ps(farthest, zero);
+        // min and max return their second operand when one is NaN (overflow): such a lane is neither all positive nor
+        // all negative, and if it does not count as missed, the exact test decides.
+        let (least, most) = (_mm_min_ps(_mm_min_ps(u, v), w), _mm_max_ps(_mm_max_ps(u, v), w));
+        let ordered = _mm_cmpord_ps(_mm_add_ps(u, v), w);
+        let missed = _mm_and_ps(_mm_and_ps(_mm_cmplt_ps(least, zero), _mm_cmpgt_ps(most, zero)), ordered);
+        let passed = !(_mm_movemask_ps(missed) as u32) & 0xf;
+        if passed == 0 {
+            return Lanes { met: 0, positive: 0, negative: 0 };
+        }
+        // Depths along the ray: the axis z itself may run against it.
+        let inverse = _mm_set1_ps(shear.inverse_z);
+        let (ta, tb, tc) = (_mm_mul_ps(a.2, inverse), _mm_mul_ps(b.2, inverse), _mm_mul_ps(c.2, inverse));
+        let nearest = _mm_min_ps(_mm_min_ps(ta, tb), tc);
         let beyond = _mm_cmpgt_ps(nearest, _mm_set1_ps(t_max * EXIT_SLACK));
-        !(_mm_movemask_ps(_mm_or_ps(missed, _mm_or_ps(behind, beyond))) as u32) & 0xf
+        let sign = _mm_set1_ps(-0.0);
+        let size = |p: (__m128, __m128, __m128)| {
+            _mm_max_ps(_mm_max_ps(_mm_andnot_ps(sign, p.0), _mm_andnot_ps(sign, p.1)), _mm_andnot_ps(sign, p.2))
+        };
+        let size = _mm_max_ps(_mm_max_ps(size(a), size(b)), size(c));
+        let error = _mm_mul_ps(_mm_mul_ps(_mm_mul_ps(size, size), size), _mm_set1_ps(DEPTH_ERROR));
+        let error = _mm_add_ps(error, _mm_set1_ps(f32::MIN_POSITIVE));
+        let depth = _mm_add_ps(
+            _mm_add_ps(_mm_mul_ps(u, a.2), _mm_mul_ps(v, b.2)),
+            _mm_mul_ps(w, c.2),
+        );
+        // Seen from the side from which the edge functions are positive and along +z.
+        let negative = _mm_cmplt_ps(most, zero);
+        let side = _mm_xor_ps(_mm_and_ps(negative, sign), _mm_and_ps(inverse, sign));
+        let behind = _mm_cmplt_ps(_mm_xor_ps(depth, side), _mm_sub_ps(zero, error));
+        let one_sided = _mm_or_ps(negative, _mm_cmpgt_ps(least, zero));
+        let out = _mm_or_ps(_mm_and_ps(behind, one_sided), beyond);
+        let ordered = _mm_movemask_ps(ordered) as u32;
+        Lanes {
+            met: passed & !(_mm_movemask_ps(out) as u32),
+            positive: _mm_movemask_ps(_mm_cmpgt_ps(least, zero)) as u32 & ordered,
+            negative: _mm_movemask_ps(negative) as u32 & ordered,
+        }
     }
 }

@@ -7,11 +7,12 @@
 use super::contract::{Hit, InstanceId};
 #[cfg(target_arch = "x86_64")]
 use super::kernel::avx2::Avx2;
-use super::kernel::{BoxRay, Entries, Kernel, KernelChoice, Portable};
+use super::kernel::{EXIT_SLACK, Entries, Kernel, KernelChoice, Lanes, Portable};
 use super::structure::Accel;
-use super::tree::{Child, Item, Owner, STACK, Target, Tree, WIDTH};
+use super::tree::{Child, Item, MixedLeaf, Owner, Packet, STACK, Target, Tree, WIDTH};
 use crate::math::Ray;
-use crate::shape::{PrimHit, ShapeId, watertight::Shear};
+use crate::shape::watertight::{Shear, Side};
+use crate::shape::{PrimHit, ShapeId};
 use std::mem::MaybeUninit;
 
 /// The state of a query while it runs.
@@ -52,12 +53,70 @@ impl<F: Fn(&Hit) -> bool> Query<'_, F> {
         self.best = Some(hit);
         if ANY { Verdict::Done } else { Verdict::Continue }
     }
+
+    /// Locates the hits on the triangles that the packet test left over.
+    #[inline(always)]
+    fn offer_lanes<const ANY: bool>(
+        &mut self,
+        packet: &Packet,
+        lanes: Lanes,
+        shear: &Shear,
+        instance: Option<InstanceId>,
+    ) -> Verdict {
+        let mut met = lanes.met;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize & 3;
+            met &= met - 1;
+            let owner = packet.owners[lane];
+            if owner == Owner::NONE {
+                continue;
+            }
+            let corners = packet.permuted_triangle(lane, shear.axes);
+            let side = if lanes.positive >> lane & 1 != 0 {
+                Side::Positive
+            } else if lanes.negative >> lane & 1 != 0 {
+                Side::Negative
+            } else if let Some(side) = shear.exact_side(&corners) {
+                side
+            } else {
+                continue;
+            };
+            if let Some(h) = shear.locate(&corners, side, self.t_max)
+                && self.offer::<ANY>(h, owner, packet.prims[lane], instance) == Verdict::Done
+            {
+                return Verdict::Done;
+            }
+        }
+        Verdict::Continue
+    }
 }
 
-#[derive(Clone, Copy)]
-struct Pending {
-    child: Child,
-    enter: f32,
+/// A child to visit and where the ray enters it, in one word that sorts by distance: the bits of floats that are
+/// not negative are ordered as they are.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Pending(u64);
+
+impl Pending {
+    #[inline(always)]
+    fn new(child: Child, enter: f32) -> Self {
+        Self(u64::from(enter.to_bits()) << 32 | u64::from(child.code()))
+    }
+
+    #[inline(always)]
+    fn child(self) -> Child {
+        Child::from_code(self.0 as u32)
+    }
+
+    #[inline(always)]
+    fn enter(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+
+    /// The nearer and the farther of two.
+    #[inline(always)]
+    fn sorted(self, other: Self) -> (Self, Self) {
+        (self.min(other), self.max(other))
+    }
 }
 
 /// A stack that is never read above its height. Its capacity suffices for every tree that the builder lets pass.
@@ -76,8 +135,16 @@ impl Stack {
     fn pop(&mut self) -> Option<Pending> {
         self.height = self.height.checked_sub(1)?;
         debug_assert!(self.height < STACK);
-        // SAFETY: entries below the old height were written by `insert`.
+        // SAFETY: entries below the old height were written by `push`.
         Some(unsafe { self.entries.get_unchecked(self.height).assume_init() })
+    }
+
+    #[inline(always)]
+    fn push(&mut self, p: Pending) {
+        debug_assert!(self.height < STACK, "deeper than MAX_DEPTH");
+        // SAFETY: the builder bounds the depth, so that height < STACK.
+        unsafe { *self.entries.get_unchecked_mut(self.height) = MaybeUninit::new(p) };
+        self.height += 1;
     }
 
     /// Inserts so that entries from `base` up stay sorted with the nearest on top.
@@ -87,7 +154,7 @@ impl Stack {
         let mut at = self.height;
         // SAFETY: the builder bounds the depth, so that height < STACK; entries below the height are initialised.
         unsafe {
-            while at > base && self.entries.get_unchecked(at - 1).assume_init().enter < p.enter {
+            while at > base && self.entries.get_unchecked(at - 1).assume_init() < p {
                 *self.entries.get_unchecked_mut(at) = *self.entries.get_unchecked(at - 1);
                 at -= 1;
             }
@@ -109,21 +176,19 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
     instance: Option<InstanceId>,
     query: &mut Query<'_, F>,
 ) -> Verdict {
-    // A NaN passes every box, empty slots included: the stack would overflow. Paths reach such places in scenes whose
-    // numbers are near the end of the range of floats.
-    if !(ray.o.is_finite() && ray.d.is_finite()) {
-        return Verdict::Continue;
-    }
-    let box_ray = BoxRay::new(ray);
-    let shear = Shear::new(ray);
+    let Some(bounds) = &tree.bounds else { return Verdict::Continue };
+    let Some((box_ray, shear)) = kernel.prepare(ray, bounds) else {
+        return kernel.unprepared::<ANY, TOP, F>(accel, tree, ray, instance, query);
+    };
     let mut entries = Entries([0.0; WIDTH]);
     let mut stack = Stack::new();
-    stack.insert(0, Pending { child: Child::ROOT, enter: 0.0 });
-    'pop: while let Some(Pending { child, enter }) = stack.pop() {
-        if enter > query.t_max {
+    stack.push(Pending::new(Child::ROOT, 0.0));
+    'pop: while let Some(pending) = stack.pop() {
+        // With the slack of the box test: rounding must not hide an equally near hit.
+        if !ANY && pending.enter() > query.t_max * EXIT_SLACK {
             continue;
         }
-        let mut current = child;
+        let mut current = pending.child();
         let leaf = loop {
             let index = match current.target() {
                 Target::Inner(index) => index,
@@ -135,26 +200,41 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
             if mask == 0 {
                 continue 'pop;
             }
-            let first = mask.trailing_zeros() as usize & 7;
+            let child = |mask: u32| node.children[mask.trailing_zeros() as usize & 7];
+            let pending = |mask: u32| {
+                let child = child(mask);
+                kernel.prefetch(tree, child);
+                Pending::new(child, entries.0[mask.trailing_zeros() as usize & 7])
+            };
+            let first = mask;
             mask &= mask - 1;
-            let mut nearest = Pending { child: node.children[first], enter: entries.0[first] };
+            if mask == 0 {
+                current = child(first);
+                continue;
+            }
+            // Which children are hit is hard to foretell for the processor: few branches, and sorting without any.
+            let (a, b) = pending(first).sorted(pending(mask));
+            mask &= mask - 1;
+            if mask == 0 {
+                stack.push(b);
+                current = a.child();
+                continue;
+            }
+            let c = pending(mask);
+            mask &= mask - 1;
+            let (a, c) = a.sorted(c);
+            let (b, c) = b.sorted(c);
             let base = stack.height;
+            stack.push(c);
+            stack.push(b);
+            let mut nearest = a;
             while mask != 0 {
-                let i = mask.trailing_zeros() as usize & 7;
+                let (near, far) = nearest.sorted(pending(mask));
                 mask &= mask - 1;
-                let mut other = Pending { child: node.children[i], enter: entries.0[i] };
-                if other.enter < nearest.enter {
-                    std::mem::swap(&mut other, &mut nearest);
-                }
-                stack.insert(base, other);
+                stack.insert(base, far);
+                nearest = near;
             }
-            current = nearest.child;
-            if stack.height > base
-                && let Target::Inner(index) = current.target()
-            {
-                // SAFETY: as above.
-                kernel.prefetch(unsafe { tree.nodes.get_unchecked(index as usize) });
-            }
+            current = nearest.child();
         };
         let (first, count, mixed) = match leaf {
             Target::Inner(_) => continue,
@@ -167,61 +247,77 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
         for index in first..first + count {
             // SAFETY: the builder refers only to packets that it has made.
             let packet = unsafe { tree.packets.get_unchecked(index as usize) };
-            let mut mask = kernel.triangles(packet, &shear, query.t_max);
-            while mask != 0 {
-                let lane = mask.trailing_zeros() as usize & 3;
-                mask &= mask - 1;
-                let owner = packet.owners[lane];
-                if owner == Owner::NONE {
-                    continue;
-                }
-                if let Some(h) =
-                    shear.intersect_permuted(packet.permuted_triangle(lane, shear.axes), query.t_max)
-                    && query.offer::<ANY>(h, owner, packet.prims[lane], instance) == Verdict::Done
-                {
-                    return Verdict::Done;
-                }
-            }
-        }
-        let Some(mixed) = mixed else { continue };
-        for item in &tree.items[mixed.first_item as usize..(mixed.first_item + mixed.item_count) as usize] {
-            let verdict = match item {
-                Item::Prim { owner, prim, primitive } => match primitive.intersect(ray, query.t_max) {
-                    Some(h) => query.offer::<ANY>(h, *owner, *prim, instance),
-                    None => Verdict::Continue,
-                },
-                Item::Instance(id) if TOP => {
-                    let placed = &accel.instances[id.0 as usize];
-                    let object = &accel.objects[placed.object.0 as usize];
-                    let object_ray = placed.object_ray(ray);
-                    descend::<K, ANY, F>(kernel, accel, object, &object_ray, *id, query)
-                }
-                Item::Instance(_) => Verdict::Continue,
-            };
-            if verdict == Verdict::Done {
+            let lanes = kernel.triangles(packet, &shear, query.t_max);
+            if lanes.met != 0
+                && kernel.offer_lanes::<ANY, F>(query, packet, lanes, &shear, instance) == Verdict::Done
+            {
                 return Verdict::Done;
             }
+        }
+        if let Some(leaf) = mixed
+            && visit_items::<K, ANY, TOP, F>(kernel, accel, tree, leaf, ray, instance, query) == Verdict::Done
+        {
+            return Verdict::Done;
         }
     }
     Verdict::Continue
 }
 
-/// The traversal of an instance's object, kept out of line so that scenes without instances do not pay for it.
+/// Intersects what a mixed leaf holds besides triangles. Out of line, as [`Query::offer_lanes`].
 #[inline(never)]
-fn descend<K: Engine, const ANY: bool, F: Fn(&Hit) -> bool>(
+fn visit_items<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
     kernel: K,
     accel: &Accel,
     tree: &Tree,
+    leaf: &MixedLeaf,
     ray: &Ray,
-    instance: InstanceId,
+    instance: Option<InstanceId>,
     query: &mut Query<'_, F>,
 ) -> Verdict {
-    kernel.run::<ANY, false, F>(accel, tree, ray, Some(instance), query)
+    for item in &tree.items[leaf.first_item as usize..(leaf.first_item + leaf.item_count) as usize] {
+        let verdict = match item {
+            Item::Prim { owner, prim, primitive } => match primitive.intersect(ray, query.t_max) {
+                Some(h) => query.offer::<ANY>(h, *owner, *prim, instance),
+                None => Verdict::Continue,
+            },
+            Item::Instance(id) if TOP => {
+                let placed = &accel.instances[id.0 as usize];
+                let object = &accel.objects[placed.object.0 as usize];
+                let object_ray = placed.object_ray(ray);
+                kernel.run::<ANY, false, F>(accel, object, &object_ray, Some(*id), query)
+            }
+            Item::Instance(_) => Verdict::Continue,
+        };
+        if verdict == Verdict::Done {
+            return Verdict::Done;
+        }
+    }
+    Verdict::Continue
 }
 
 /// A kernel with a traversal compiled for its instruction set.
 trait Engine: Kernel {
     fn run<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
+        self,
+        accel: &Accel,
+        tree: &Tree,
+        ray: &Ray,
+        instance: Option<InstanceId>,
+        query: &mut Query<'_, F>,
+    ) -> Verdict;
+
+    /// [`Query::offer_lanes`], out of line: inlined, its numbers push those of the box test out of the registers.
+    fn offer_lanes<const ANY: bool, F: Fn(&Hit) -> bool>(
+        self,
+        query: &mut Query<'_, F>,
+        packet: &Packet,
+        lanes: Lanes,
+        shear: &Shear,
+        instance: Option<InstanceId>,
+    ) -> Verdict;
+
+    /// What becomes of a ray that [`Kernel::prepare`] refuses.
+    fn unprepared<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
         self,
         accel: &Accel,
         tree: &Tree,
@@ -242,6 +338,29 @@ impl Engine for Portable {
     ) -> Verdict {
         trace::<Self, ANY, TOP, F>(self, accel, tree, ray, instance, query)
     }
+
+    #[inline(never)]
+    fn offer_lanes<const ANY: bool, F: Fn(&Hit) -> bool>(
+        self,
+        query: &mut Query<'_, F>,
+        packet: &Packet,
+        lanes: Lanes,
+        shear: &Shear,
+        instance: Option<InstanceId>,
+    ) -> Verdict {
+        query.offer_lanes::<ANY>(packet, lanes, shear, instance)
+    }
+
+    fn unprepared<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
+        self,
+        _accel: &Accel,
+        _tree: &Tree,
+        _ray: &Ray,
+        _instance: Option<InstanceId>,
+        _query: &mut Query<'_, F>,
+    ) -> Verdict {
+        Verdict::Continue
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -255,7 +374,7 @@ impl Engine for Avx2 {
         instance: Option<InstanceId>,
         query: &mut Query<'_, F>,
     ) -> Verdict {
-        #[target_feature(enable = "avx2")]
+        #[target_feature(enable = "avx2,fma")]
         fn compiled<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
             kernel: Avx2,
             accel: &Accel,
@@ -268,6 +387,42 @@ impl Engine for Avx2 {
         }
         // SAFETY: a value of `Avx2` exists only where AVX2 was detected.
         unsafe { compiled::<ANY, TOP, F>(self, accel, tree, ray, instance, query) }
+    }
+
+    #[inline(always)]
+    fn offer_lanes<const ANY: bool, F: Fn(&Hit) -> bool>(
+        self,
+        query: &mut Query<'_, F>,
+        packet: &Packet,
+        lanes: Lanes,
+        shear: &Shear,
+        instance: Option<InstanceId>,
+    ) -> Verdict {
+        #[inline(never)]
+        #[target_feature(enable = "avx2,fma")]
+        fn compiled<const ANY: bool, F: Fn(&Hit) -> bool>(
+            query: &mut Query<'_, F>,
+            packet: &Packet,
+            lanes: Lanes,
+            shear: &Shear,
+            instance: Option<InstanceId>,
+        ) -> Verdict {
+            query.offer_lanes::<ANY>(packet, lanes, shear, instance)
+        }
+        // SAFETY: a value of `Avx2` exists only where AVX2 and FMA were detected.
+        unsafe { compiled::<ANY, F>(query, packet, lanes, shear, instance) }
+    }
+
+    #[cold]
+    fn unprepared<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
+        self,
+        accel: &Accel,
+        tree: &Tree,
+        ray: &Ray,
+        instance: Option<InstanceId>,
+        query: &mut Query<'_, F>,
+    ) -> Verdict {
+        Portable.run::<ANY, TOP, F>(accel, tree, ray, instance, query)
     }
 }
 

@@ -73,6 +73,26 @@ impl Child {
         self.0 & Self::LEAF == 0
     }
 
+    /// The 32 bits as they stand on the traversal stack.
+    #[inline(always)]
+    pub(super) fn code(self) -> u32 {
+        self.0
+    }
+
+    #[inline(always)]
+    pub(super) fn from_code(code: u32) -> Self {
+        Self(code)
+    }
+
+    /// Where the node or the first packet begins, as a hint only: for a mixed leaf, somewhere.
+    #[inline(always)]
+    pub(super) fn address(self, tree: &Tree) -> *const i8 {
+        let node = tree.nodes.as_ptr().wrapping_add(self.0 as usize).cast();
+        let first = ((self.0 & !Self::LEAF) >> Self::COUNT_BITS) as usize;
+        let packet = tree.packets.as_ptr().wrapping_add(first).cast();
+        if self.is_inner() { node } else { packet }
+    }
+
     #[inline(always)]
     pub(super) fn target(self) -> Target {
         if self.is_inner() {

@@ -14,41 +14,58 @@ use glam::DVec3;
 pub struct Shear {
     /// Axes that become x, y and z; z is the one with the largest |d|.
     pub axes: [usize; 3],
-    /// Shear factors −d_x/d_z and −d_y/d_z.
+    /// Shear factors −d_x/d_z and −d_y/d_z, to relative accuracy 2 ε.
     pub factors: [f32; 2],
     /// Origin in permuted axes.
     pub origin: [f32; 3],
     /// 1/d_z: turns depths into parametric distances, to relative accuracy 1.5 ε.
     pub inverse_z: f32,
-    d: DVec3,
+    /// Direction in permuted axes.
+    d: [f32; 3],
+}
+
+/// From which side a triangle is seen along +z of the sheared space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The edge functions are positive.
+    Positive,
+    /// The edge functions are negative.
+    Negative,
+}
+
+impl Side {
+    #[inline(always)]
+    fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
+        }
+    }
 }
 
 impl Shear {
     /// Prepares `ray`, whose direction must be finite and not zero.
-    #[inline]
+    #[inline(always)]
     pub fn new(ray: &Ray) -> Self {
         let a = ray.d.abs();
-        let axes = if a.x > a.y && a.x > a.z {
-            [1, 2, 0]
-        } else if a.y > a.z && a.y >= a.x {
-            [2, 0, 1]
-        } else {
-            [0, 1, 2]
-        };
-        let permuted = |v: [f32; 3]| axes.map(|axis| v[axis]);
-        let (d, origin) = (permuted(ray.d.to_array()), permuted(ray.o.to_array()));
-        Self {
-            axes,
-            factors: [-d[0] / d[2], -d[1] / d[2]],
-            origin,
-            inverse_z: 1.0 / d[2],
-            d: DVec3::from(d.map(f64::from)),
-        }
+        let first = usize::from(a.y > a.x);
+        let z = if a.z > a.x.max(a.y) { 2 } else { first };
+        Self::along(ray, z, 1.0 / ray.d[z])
+    }
+
+    /// [`Shear::new`] for a caller who knows already the first axis `z` with the largest |d| and 1/d there.
+    #[inline(always)]
+    pub fn along(ray: &Ray, z: usize, inverse_z: f32) -> Self {
+        const NEXT: [usize; 5] = [0, 1, 2, 0, 1];
+        let axes = [NEXT[z + 1], NEXT[z + 2], z];
+        let (d, origin) = (ray.d.to_array(), ray.o.0.to_array());
+        let (d, origin) = (axes.map(|axis| d[axis]), axes.map(|axis| origin[axis]));
+        Self { axes, factors: [-d[0] * inverse_z, -d[1] * inverse_z], origin, inverse_z, d }
     }
 
     /// Projects a vertex along the ray. Every rounding here is part of the watertightness argument: whoever
     /// repeats the computation (the SIMD packet test) must use the same operations, unfused.
-    #[inline]
+    #[inline(always)]
     fn project(&self, p: [f32; 3]) -> [f32; 2] {
         let z = p[2] - self.origin[2];
         [(p[0] - self.origin[0]) + self.factors[0] * z, (p[1] - self.origin[1]) + self.factors[1] * z]
@@ -56,35 +73,39 @@ impl Shear {
 
     /// Intersects the triangle `v` at 0 < t ≤ `t_max`; `None` also for a triangle that is degenerate or seen edge-on.
     #[inline]
-    pub fn intersect(&self, [a, b, c]: [Point; 3], t_max: f32) -> Option<PrimHit> {
-        let permuted = |p: Point| {
+    pub fn intersect(&self, v: [Point; 3], t_max: f32) -> Option<PrimHit> {
+        let permuted = v.map(|p| {
             let p = p.0.to_array();
-            [p[self.axes[0]], p[self.axes[1]], p[self.axes[2]]]
-        };
-        self.intersect_permuted([permuted(a), permuted(b), permuted(c)], t_max)
+            self.axes.map(|axis| p[axis])
+        });
+        self.locate(&permuted, self.exact_side(&permuted)?, t_max)
     }
 
-    /// [`Shear::intersect`] for a triangle whose coordinates are in the order of [`Shear::axes`] already.
-    #[inline]
-    pub fn intersect_permuted(&self, permuted: [[f32; 3]; 3], t_max: f32) -> Option<PrimHit> {
-        let (a, b, c) = (self.project(permuted[0]), self.project(permuted[1]), self.project(permuted[2]));
-        let edges = [edge(c, b), edge(a, c), edge(b, a)];
-        let [u, v, w] = edges;
+    /// From which side the ray passes a triangle, its coordinates in the order of [`Shear::axes`], by the exact signs
+    /// of the edge functions; `None` when it misses, or when all three vanish and there is nothing to hit.
+    pub fn exact_side(&self, permuted: &[[f32; 3]; 3]) -> Option<Side> {
+        let [u, v, w] = self.edges(permuted);
         let (negative, positive) = ((u < 0.0) | (v < 0.0) | (w < 0.0), (u > 0.0) | (v > 0.0) | (w > 0.0));
-        if negative == positive {
-            // Either a miss, or all three vanish: nothing to hit.
-            return None;
+        match (positive, negative) {
+            (true, false) => Some(Side::Positive),
+            (false, true) => Some(Side::Negative),
+            _ => None,
         }
-        let side = if positive { 1.0 } else { -1.0 };
-        self.locate(permuted, edges, side, t_max)
     }
 
-    /// Distance and barycentrics of a pass that is already decided; rejects hits behind or at the origin.
-    #[inline]
-    fn locate(&self, v: [[f32; 3]; 3], edges: [f64; 3], side: f64, t_max: f32) -> Option<PrimHit> {
+    /// The edge functions with their exact signs.
+    fn edges(&self, permuted: &[[f32; 3]; 3]) -> [f64; 3] {
+        let [a, b, c] = permuted.map(|p| self.project(p));
+        [edge(c, b), edge(a, c), edge(b, a)]
+    }
+
+    /// Distance and barycentrics where the ray passes a triangle, its coordinates in the order of [`Shear::axes`],
+    /// from `side`, which is decided already; `None` unless 0 < t ≤ `t_max` and the origin lies in front.
+    #[inline(always)]
+    pub fn locate(&self, permuted: &[[f32; 3]; 3], side: Side, t_max: f32) -> Option<PrimHit> {
         let wide = |p: [f32; 3]| DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]));
-        let o = wide(self.origin);
-        let (a, b, c) = (wide(v[0]) - o, wide(v[1]) - o, wide(v[2]) - o);
+        let (o, d) = (wide(self.origin), wide(self.d));
+        let [a, b, c] = permuted.map(|p| wide(p) - o);
 
         // The origin must be in front: the sign of n·(a − o) is used only when it exceeds its rounding bound, so
         // that a ray that starts on the triangle does not meet it again.
@@ -95,27 +116,30 @@ impl Shear {
             DVec3::new(m1.y * m2.z + m1.z * m2.y, m1.z * m2.x + m1.x * m2.z, m1.x * m2.y + m1.y * m2.x);
         const ROUNDING: f64 = 8.0 * f64::EPSILON;
         // n·d has the sign −side·sign(d_z): the edge functions sum to minus twice the signed area seen along d.
-        if -distance * side * self.d.z.signum() <= ROUNDING * magnitude.dot(a.abs()) {
+        let side_sign = side.sign();
+        if distance * -side_sign.copysign(side_sign * d.z) <= ROUNDING * magnitude.dot(a.abs()) {
             return None;
         }
 
-        let inv_z = 1.0 / self.d.z;
-        let (sx, sy) = (-self.d.x * inv_z, -self.d.y * inv_z);
-        let project = |p: DVec3| [p.x + sx * p.z, p.y + sy * p.z];
+        // Projected along d and scaled by d_z, which saves a division and cancels.
+        let project = |p: DVec3| [p.x * d.z - d.x * p.z, p.y * d.z - d.y * p.z];
         let (pa, pb, pc) = (project(a), project(b), project(c));
-        let area = |p: [f64; 2], q: [f64; 2]| ((p[0] * q[1] - p[1] * q[0]) * side).max(0.0);
+        let area = |p: [f64; 2], q: [f64; 2]| ((p[0] * q[1] - p[1] * q[0]) * side_sign).max(0.0);
         let (mut u, mut v, mut w) = (area(pc, pb), area(pa, pc), area(pb, pa));
         let mut sum = u + v + w;
         if !(sum > 0.0 && sum.is_finite()) {
             // Exactly edge-on in f64 although the sheared f32 triangle has an area: keep the decision.
-            [u, v, w] = edges.map(|e| e * side);
+            [u, v, w] = self.edges(permuted).map(|e| e * side_sign);
             sum = u + v + w;
         }
-        let inv = 1.0 / sum;
-        let (b1, b2) = (v * inv, w * inv);
-        let t = ((u * inv) * a.z + b1 * b.z + b2 * c.z) * inv_z;
-        let t = t as f32;
-        (t > 0.0 && t <= t_max).then_some(PrimHit { t, u: b1 as f32, v: b2 as f32 })
+        let scale = 1.0 / (sum * d.z);
+        let t = ((u * a.z + v * b.z + w * c.z) * scale) as f32;
+        let inverse = scale * d.z;
+        (t > 0.0 && t <= t_max).then_some(PrimHit {
+            t,
+            u: (v * inverse) as f32,
+            v: (w * inverse) as f32,
+        })
     }
 }
 
