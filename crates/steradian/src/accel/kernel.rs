@@ -161,9 +161,14 @@ impl Kernel for Portable {
 pub(super) mod avx2 {
     //! The same tests with AVX2 intrinsics.
     #![expect(unsafe_code, reason = "SIMD intrinsics need it")]
+    #![expect(
+        unsafe_op_in_unsafe_fn,
+        reason = "what is inlined always cannot name its instruction set: every call is an intrinsic of AVX2 or FMA"
+    )]
 
     use super::{
-        Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, Ray, Shear, Tree, float,
+        Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, Ray, Shear, Tree,
+        float,
     };
     use std::arch::x86_64::*;
 
@@ -338,8 +343,7 @@ pub(super) mod avx2 {
         let far = |axis: usize| distance(ray.enter[axis] ^ ROW, axis, ray.below[axis]);
         let enter =
             _mm256_max_ps(_mm256_max_ps(near(0), near(1)), _mm256_max_ps(near(2), _mm256_setzero_ps()));
-        let exit =
-            _mm256_min_ps(_mm256_min_ps(far(0), far(1)), _mm256_min_ps(far(2), _mm256_set1_ps(t_max)));
+        let exit = _mm256_min_ps(_mm256_min_ps(far(0), far(1)), _mm256_min_ps(far(2), _mm256_set1_ps(t_max)));
         let exit = _mm256_mul_ps(exit, _mm256_set1_ps(EXIT_SLACK));
         let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, exit)) as u32;
         // SAFETY: the array is 32-byte aligned and holds eight f32.
@@ -383,15 +387,15 @@ pub(super) mod avx2 {
         let beyond = _mm_cmpgt_ps(nearest, _mm_set1_ps(t_max * EXIT_SLACK));
         let sign = _mm_set1_ps(-0.0);
         let size = |p: (__m128, __m128, __m128)| {
-            _mm_max_ps(_mm_max_ps(_mm_andnot_ps(sign, p.0), _mm_andnot_ps(sign, p.1)), _mm_andnot_ps(sign, p.2))
+            _mm_max_ps(
+                _mm_max_ps(_mm_andnot_ps(sign, p.0), _mm_andnot_ps(sign, p.1)),
+                _mm_andnot_ps(sign, p.2),
+            )
         };
         let size = _mm_max_ps(_mm_max_ps(size(a), size(b)), size(c));
         let error = _mm_mul_ps(_mm_mul_ps(_mm_mul_ps(size, size), size), _mm_set1_ps(DEPTH_ERROR));
         let error = _mm_add_ps(error, _mm_set1_ps(f32::MIN_POSITIVE));
-        let depth = _mm_add_ps(
-            _mm_add_ps(_mm_mul_ps(u, a.2), _mm_mul_ps(v, b.2)),
-            _mm_mul_ps(w, c.2),
-        );
+        let depth = _mm_add_ps(_mm_add_ps(_mm_mul_ps(u, a.2), _mm_mul_ps(v, b.2)), _mm_mul_ps(w, c.2));
         // Seen from the side from which the edge functions are positive and along +z.
         let negative = _mm_cmplt_ps(most, zero);
         let side = _mm_xor_ps(_mm_and_ps(negative, sign), _mm_and_ps(inverse, sign));

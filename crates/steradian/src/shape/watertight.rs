@@ -135,11 +135,7 @@ impl Shear {
         let scale = 1.0 / (sum * d.z);
         let t = ((u * a.z + v * b.z + w * c.z) * scale) as f32;
         let inverse = scale * d.z;
-        (t > 0.0 && t <= t_max).then_some(PrimHit {
-            t,
-            u: (v * inverse) as f32,
-            v: (w * inverse) as f32,
-        })
+        (t > 0.0 && t <= t_max).then_some(PrimHit { t, u: (v * inverse) as f32, v: (w * inverse) as f32 })
     }
 }
 
