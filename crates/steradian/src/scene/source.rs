@@ -114,14 +114,13 @@ impl SourceMap {
 
     /// Hash of the contents of all files, in the order in which they were read.
     pub fn content_hash(&self) -> u64 {
-        let word = |chunk: &[u8]| {
-            let mut bytes = [0; 8];
-            bytes[..chunk.len()].copy_from_slice(chunk);
-            u64::from_le_bytes(bytes)
-        };
         self.files.iter().fold(0, |hash, file| {
             let hash = hash::combine(hash, file.bytes.len() as u64);
-            file.bytes.chunks(8).fold(hash, |h, chunk| hash::combine(h, word(chunk)))
+            let (words, rest) = file.bytes.as_chunks::<8>();
+            let hash = words.iter().fold(hash, |h, &word| hash::combine(h, u64::from_le_bytes(word)));
+            let mut last = [0; 8];
+            last[..rest.len()].copy_from_slice(rest);
+            if rest.is_empty() { hash } else { hash::combine(hash, u64::from_le_bytes(last)) }
         })
     }
 

@@ -65,10 +65,9 @@ pub(super) fn build(
     })
 }
 
-/// Index triples of a mesh; the importer has checked that their number is a multiple of three.
 fn triangles(mesh: MeshDesc) -> MeshData {
     MeshData {
-        indices: mesh.indices.as_chunks::<3>().0.to_vec(),
+        indices: groups(mesh.indices),
         positions: mesh.p,
         normals: mesh.n,
         tangents: mesh.s,
@@ -77,9 +76,18 @@ fn triangles(mesh: MeshDesc) -> MeshData {
     }
 }
 
+/// The indices in groups, in the same memory; the importer has checked that there is no remainder.
+fn groups<const N: usize>(mut indices: Vec<u32>) -> Vec<[u32; N]>
+where
+    [u32; N]: bytemuck::Pod,
+{
+    indices.shrink_to_fit();
+    bytemuck::try_cast_vec(indices).unwrap_or_else(|(_, indices)| indices.as_chunks::<N>().0.to_vec())
+}
+
 fn patches(mesh: MeshDesc) -> PatchData {
     PatchData {
-        indices: mesh.indices.as_chunks::<4>().0.to_vec(),
+        indices: groups(mesh.indices),
         positions: mesh.p,
         normals: mesh.n,
         uvs: mesh.uv,

@@ -48,16 +48,20 @@ pub(super) struct Lexer<'a> {
 }
 
 /// What separates tokens: one table look-up a byte.
-const DELIMITER: [bool; 256] = {
+static DELIMITER: [bool; 256] = members(b" \t\r\n\x0b\x0c\"[]#");
+
+/// What numbers begin with.
+static BEGINS_NUMBER: [bool; 256] = members(b"0123456789-+.");
+
+const fn members(set: &[u8]) -> [bool; 256] {
     let mut t = [false; 256];
     let mut i = 0;
-    let set = b" \t\r\n\x0b\x0c\"[]#";
     while i < set.len() {
         t[set[i] as usize] = true;
         i += 1;
     }
     t
-};
+}
 
 impl<'a> Lexer<'a> {
     pub(super) fn new(text: &'a [u8], pos: usize) -> Self {
@@ -107,13 +111,9 @@ impl<'a> Lexer<'a> {
 
     /// Appends the numbers that follow until there are `limit`.
     pub(super) fn numbers(&mut self, out: &mut Vec<f32>, limit: usize) -> RunEnd {
-        loop {
-            self.skip_blank();
-            if !self.at_number() || out.len() >= limit {
-                return RunEnd::Other;
-            }
-            let scanned = scan_f32(&self.text[self.pos..]);
-            match scanned {
+        let text = self.text;
+        while self.finds_number() && out.len() < limit {
+            match text.get(self.pos..).and_then(scan_f32) {
                 Some(n) if self.ends_at(self.pos + n.len) => {
                     if !n.value.is_finite() {
                         return RunEnd::OutOfRange(self.next());
@@ -124,16 +124,14 @@ impl<'a> Lexer<'a> {
                 _ => return RunEnd::Malformed(self.next()),
             }
         }
+        RunEnd::Other
     }
 
     /// Appends the integers that follow until there are `limit`.
     pub(super) fn integers(&mut self, out: &mut Vec<i32>, limit: usize) -> RunEnd {
-        loop {
-            self.skip_blank();
-            if !self.at_number() || out.len() >= limit {
-                return RunEnd::Other;
-            }
-            match scan_i32(&self.text[self.pos..]) {
+        let text = self.text;
+        while self.finds_number() && out.len() < limit {
+            match text.get(self.pos..).map_or(Err(IntegerError::NotAnInteger), scan_i32) {
                 Ok(n) if self.ends_at(self.pos + n.len) => {
                     out.push(n.value);
                     self.pos += n.len;
@@ -142,12 +140,27 @@ impl<'a> Lexer<'a> {
                 _ => return RunEnd::Malformed(self.next()),
             }
         }
+        RunEnd::Other
     }
 
-    fn at_number(&self) -> bool {
-        matches!(self.text.get(self.pos), Some(b'0'..=b'9' | b'-' | b'+' | b'.'))
+    /// Skips what is blank, and says whether a number begins there.
+    #[inline]
+    fn finds_number(&mut self) -> bool {
+        // One blank before a number is the rule.
+        if let Some(b' ') = self.text.get(self.pos) {
+            self.pos += 1;
+        }
+        match self.text.get(self.pos) {
+            Some(&b) if BEGINS_NUMBER[usize::from(b)] => true,
+            None => false,
+            Some(_) => {
+                self.skip_blank();
+                self.text.get(self.pos).is_some_and(|&b| BEGINS_NUMBER[usize::from(b)])
+            }
+        }
     }
 
+    #[inline]
     fn ends_at(&self, i: usize) -> bool {
         self.text.get(i).is_none_or(|&b| DELIMITER[usize::from(b)])
     }

@@ -3,7 +3,7 @@
 
 pub mod directive;
 mod lexer;
-mod number;
+pub(super) mod number;
 pub mod parser;
 
 pub use directive::{

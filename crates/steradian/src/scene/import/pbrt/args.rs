@@ -400,19 +400,19 @@ impl<'c> Args<'c> {
     /// Positions.
     pub(super) fn points(&mut self, name: &'static str) -> Option<Many<Point>> {
         let m = self.numbers(name, ParamType::Point3)?;
-        Some(Many { values: bytemuck::cast_slice(whole::<3>(&m.values)).to_vec(), span: m.span })
+        Some(Many { values: groups(m.values), span: m.span })
     }
 
     /// Vectors or normals.
     pub(super) fn vectors(&mut self, name: &'static str, ty: ParamType) -> Option<Many<Vec3>> {
         let m = self.numbers(name, ty)?;
-        Some(Many { values: bytemuck::cast_slice(whole::<3>(&m.values)).to_vec(), span: m.span })
+        Some(Many { values: groups(m.values), span: m.span })
     }
 
     /// Points of the plane.
     pub(super) fn points2(&mut self, name: &'static str) -> Option<Many<Vec2>> {
         let m = self.numbers(name, ParamType::Point2)?;
-        Some(Many { values: bytemuck::cast_slice(whole::<2>(&m.values)).to_vec(), span: m.span })
+        Some(Many { values: groups(m.values), span: m.span })
     }
 
     /// A position, or the default.
@@ -466,8 +466,11 @@ impl fmt::Display for Shown {
     }
 }
 
-/// The values that make whole groups of `N`; the parser has already refused anything else.
-fn whole<const N: usize>(values: &[f32]) -> &[f32] {
-    debug_assert!(values.len().is_multiple_of(N));
-    &values[..values.len() / N * N]
+/// The values in whole groups, in the same memory; the parser has already refused any remainder.
+fn groups<T: bytemuck::Pod>(mut values: Vec<f32>) -> Vec<T> {
+    let length = size_of::<T>() / size_of::<f32>();
+    debug_assert!(values.len().is_multiple_of(length));
+    values.truncate(values.len() / length * length);
+    values.shrink_to_fit();
+    bytemuck::try_cast_vec(values).unwrap_or_else(|(_, values)| bytemuck::cast_slice(&values).to_vec())
 }
