@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
 use steradian::lab::probe::Angles;
+use steradian::scene::NoiseTarget;
 use steradian::scene::desc::MAX_SAMPLES;
 
 /// Steradian: a spectral, physically based renderer for scenes in the pbrt-v4 format.
@@ -120,6 +121,9 @@ pub(crate) struct Render {
     /// Samples per pixel, instead of the scene's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     pub(crate) spp: Option<u32>,
+    /// Noise to aim at: each pixel gets as many samples as that takes, and at most --spp, instead of the same number
+    #[arg(long, value_name = "PERCENT", value_parser = parse_noise)]
+    pub(crate) noise: Option<NoiseTarget>,
     /// Image size in pixels, instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_resolution)]
     pub(crate) resolution: Option<[u32; 2]>,
@@ -152,7 +156,12 @@ pub(crate) struct Render {
 const RENDER_NOTES: &str = "\
 Examples:
   steradian render scene.pbrt -o picture.exr -o picture.png --spp 256
-  steradian render scene.pbrt --crop 0.25,0.75,0.25,0.75 --time 60s --stats";
+  steradian render scene.pbrt --noise 2% --spp 4096
+  steradian render scene.pbrt --crop 0.25,0.75,0.25,0.75 --time 60s --stats
+
+Noise is the standard error of a pixel's R, G and B relative to their mean (relative to a tenth of the
+picture's median where a pixel is darker), as the root mean square over the picture without its noisiest
+hundredth. With --noise, --spp (or the scene's count) is the most that a pixel gets; allow a few thousand.";
 
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  steradian compare a.exr reference.exr -o difference.png")]
@@ -400,6 +409,19 @@ fn parse_crop(text: &str) -> Result<[f32; 4], String> {
     }
 }
 
+fn parse_noise(text: &str) -> Result<NoiseTarget, String> {
+    let text = text.trim();
+    let (number, factor) = match text.strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let fraction = number.trim().parse::<f32>().ok().map(|n| n * factor);
+    match fraction.and_then(NoiseTarget::new) {
+        Some(target) => Ok(target),
+        None => Err("expected a percentage such as 1%, or a fraction such as 0.01, up to 100%".to_owned()),
+    }
+}
+
 fn parse_duration(text: &str) -> Result<Duration, String> {
     let text = text.trim();
     let (number, factor) = match text.strip_suffix(['s', 'm', 'h']) {
@@ -469,6 +491,11 @@ mod tests {
         );
         assert!(parse_wavelength("0").is_err() && parse_wavelength("inf").is_err());
         assert!(parse_uv("1").is_err() && parse_uv("nan,0").is_err());
+        assert_eq!(parse_noise("2%").map(NoiseTarget::get), Ok(0.02));
+        assert_eq!(parse_noise(" 0.5 % "), parse_noise("0.005"));
+        for wrong in ["0", "2", "-1%", "101%", "nan", "%", "little"] {
+            assert!(parse_noise(wrong).is_err(), "{wrong}");
+        }
         assert_eq!(parse_duration("90s"), Ok(Duration::from_secs(90)));
         assert_eq!(parse_duration("1.5m"), Ok(Duration::from_secs(90)));
         assert!(

@@ -43,7 +43,12 @@ impl Reporter {
     pub(crate) fn begin(&self, job: &RenderJob) {
         if let Self::Lines(_) = self {
             let [x0, x1, y0, y1] = job.film.window();
-            note(&format!("rendering {} x {} pixels with {} spp", x1 - x0, y1 - y0, job.sampling.spp));
+            let spp = job.sampling.spp;
+            let samples = match job.sampling.noise {
+                None => format!("{spp} spp"),
+                Some(noise) => format!("up to {spp} spp for {} % of noise", 100.0 * noise.get()),
+            };
+            note(&format!("rendering {} x {} pixels with {samples}", x1 - x0, y1 - y0));
         }
     }
 

@@ -6,7 +6,7 @@ use crate::output::{Target, note};
 use crate::progress::{Reporter, clock};
 use crate::{Failure, interrupt};
 use std::path::{Path, PathBuf};
-use steradian::render::{RenderOptions, Report};
+use steradian::render::{Adaptive, RenderOptions, Report};
 use steradian::scene::{Overrides, SceneDesc};
 
 pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {
@@ -40,12 +40,16 @@ pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {
     }
     let report = &rendered.report;
     warn_of_dropped(report);
+    // Whoever stopped it knows.
+    if !cancel.is_cancelled() && !arguments.quiet {
+        warn_of_maximum(report);
+    }
     if !arguments.quiet {
         let names: Vec<_> = targets.iter().map(|t| t.path().display().to_string()).collect();
         note(&format!(
-            "{}: {} spp in {}, {:.2} Mrays/s",
+            "{}: {} in {}, {:.2} Mrays/s",
             names.join(", "),
-            report.spp,
+            report.adaptive.map_or_else(|| format!("{} spp", report.spp), |adaptive| adaptive.to_string()),
             clock(report.elapsed),
             report.mrays_per_second()
         ));
@@ -63,6 +67,7 @@ pub(crate) fn run(arguments: &args::Render) -> Result<(), Failure> {
 fn overrides(a: &args::Render) -> Overrides {
     Overrides {
         spp: a.spp,
+        noise: a.noise,
         resolution: a.resolution,
         crop: a.crop,
         seed: a.seed,
@@ -79,6 +84,17 @@ fn default_outputs(desc: &SceneDesc, built_in: bool) -> Vec<PathBuf> {
         vec![named, png]
     } else {
         vec![named]
+    }
+}
+
+/// Says that more samples would have been needed, and how many.
+fn warn_of_maximum(report: &Report) {
+    if let Some(adaptive) = report.adaptive.filter(Adaptive::stopped_by_maximum) {
+        note(&format!(
+            "warning: {:.1} % of the pixels took all {} samples that they may; allow more with --spp to come closer to the noise asked for",
+            100.0 * adaptive.share_at_maximum,
+            report.spp_requested
+        ));
     }
 }
 

@@ -3,6 +3,7 @@
 use super::bounds::PixelBounds;
 use super::recording::{Film, FilmKind};
 use super::tile::FilmTile;
+use crate::color::Rgb;
 use crate::units::{Quantity, Radiance};
 
 /// A developed film: named planes over the rendered pixels.
@@ -55,6 +56,12 @@ impl Film {
             layers: planes.layers,
             attributes: self.attributes(),
         }
+    }
+
+    /// RGB of one pixel as it would be shown now; `None` without a sample or outside the tile.
+    pub fn rgb(&self, tile: &FilmTile, pixel: [i32; 2]) -> Option<Rgb> {
+        let sums = &tile.pixels[tile.bounds.index(pixel)?];
+        (sums.weight != 0.0).then(|| self.sensor.rgb(sums.sum.map(|s| s / sums.weight)))
     }
 
     /// Channel names, in the order in which [`Film::develop_pixel`] writes values.

@@ -43,6 +43,20 @@ impl Spread {
         self.m2 += delta * (x - self.mean);
     }
 
+    /// The spread of both sets of samples (Chan, Golub & LeVeque 1979).
+    fn merge(self, other: Self) -> Self {
+        let n = self.n + other.n;
+        if n == 0 {
+            return self;
+        }
+        let (delta, share) = (other.mean - self.mean, other.n as f32 / n as f32);
+        Self {
+            n,
+            mean: self.mean + delta * share,
+            m2: self.m2 + other.m2 + delta * delta * self.n as f32 * share,
+        }
+    }
+
     /// Unbiased variance of one sample; zero for fewer than two.
     pub(super) fn variance(&self) -> f32 {
         if self.n < 2 { 0.0 } else { self.m2 / (self.n - 1) as f32 }
@@ -104,6 +118,56 @@ impl FilmTile {
     }
 }
 
+impl FilmTile {
+    /// Adds what another tile of the same film and bounds recorded of a pixel.
+    pub fn absorb(&mut self, other: &Self, pixel: [i32; 2]) {
+        debug_assert_eq!(self.bounds, other.bounds);
+        if let Some(index) = self.bounds.index(pixel) {
+            self.add_scaled(other, index, 1.0);
+        }
+    }
+
+    /// Adds what another tile of the same film and bounds recorded, scaled such that in every pixel both count for one half
+    /// whatever their numbers of samples: where those numbers depend on the samples, a pooled mean would be biased.
+    ///
+    /// Numbers and variances of samples are those of all samples.
+    pub fn balance(&mut self, other: &Self) {
+        debug_assert_eq!(self.bounds, other.bounds);
+        for index in 0..self.pixels.len() {
+            let (own, others) = (self.pixels[index].luminance.n, other.pixels[index].luminance.n);
+            let scale = if own == 0 || others == 0 { 1.0 } else { f64::from(own) / f64::from(others) };
+            self.add_scaled(other, index, scale);
+        }
+    }
+
+    fn add_scaled(&mut self, other: &Self, index: usize, scale: f64) {
+        let add = |a: &mut f64, b: f64| *a += scale * b;
+        let add3 = |a: &mut [f64; 3], b: [f64; 3]| (0..3).for_each(|i| a[i] += scale * b[i]);
+        let (own, others) = (&mut self.pixels[index], &other.pixels[index]);
+        add3(&mut own.sum, others.sum);
+        add(&mut own.weight, others.weight);
+        own.luminance = own.luminance.merge(others.luminance);
+        if let (Some(own), Some(others)) = (self.surfaces.get_mut(index), other.surfaces.get(index)) {
+            add(&mut own.weight, others.weight);
+            add3(&mut own.p, others.p);
+            add3(&mut own.n, others.n);
+            add3(&mut own.ns, others.ns);
+            add3(&mut own.albedo, others.albedo);
+            for axis in 0..2 {
+                add(&mut own.uv[axis], others.uv[axis]);
+                add(&mut own.dz[axis], others.dz[axis]);
+            }
+            (0..3).for_each(|c| own.rgb[c] = own.rgb[c].merge(others.rgb[c]));
+        }
+        let count = self.bins.len() / self.pixels.len().max(1);
+        let bins = index * count..(index + 1) * count;
+        for (own, others) in self.bins[bins.clone()].iter_mut().zip(&other.bins[bins]) {
+            add(&mut own.sum, others.sum);
+            add(&mut own.weight, others.weight);
+        }
+    }
+}
+
 /// A mean and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -124,5 +188,21 @@ mod tests {
         // Mean 5, Σ(x − 5)² = 32.
         assert!((s.mean - 5.0).abs() < 1e-6 && (s.variance() - 32.0 / 7.0).abs() < 1e-5);
         assert!((s.relative_variance() - 32.0 / 35.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_spread_of_two_sets_is_that_of_their_union() {
+        let of = |xs: &[f32]| {
+            let mut s = Spread::default();
+            xs.iter().for_each(|&x| s.add(x));
+            s
+        };
+        let values = [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0];
+        let whole = of(&values);
+        for cut in 0..=values.len() {
+            let merged = of(&values[..cut]).merge(of(&values[cut..]));
+            assert_eq!(merged.n, whole.n);
+            assert!((merged.mean - whole.mean).abs() < 1e-5 && (merged.m2 - whole.m2).abs() < 1e-4);
+        }
     }
 }

@@ -4,6 +4,8 @@
 //! adds the next samples of every pixel. Stopping between passes leaves a complete picture with fewer samples. Which
 //! samples a pixel receives, and in which order, depends on neither threads nor tiles nor passes.
 
+mod adaptive;
+mod noise;
 pub mod progress;
 pub mod report;
 mod rounds;
@@ -12,7 +14,7 @@ pub mod setup;
 mod worker;
 
 pub use progress::{CancelToken, Progress, ProgressSink, Silent};
-pub use report::{Dropped, DroppedSample, Report};
+pub use report::{Adaptive, Dropped, DroppedSample, Report};
 pub use schedule::TileOrder;
 pub use setup::RenderError;
 
@@ -23,7 +25,7 @@ use crate::scene::RenderJob;
 use rounds::Passes;
 use setup::Estimator;
 use std::time::Duration;
-use worker::Worker;
+use worker::{Sequences, Worker};
 
 /// Pixels along the side of a tile: small enough to balance load at the end of a pass, large enough that
 /// the queue's lock does not show.
@@ -70,6 +72,30 @@ fn execute(
     cancel: &CancelToken,
 ) -> Result<Rendering, RenderError> {
     let film = setup::film(job)?;
+    let mut passes = Passes::new(options, sink, cancel, film.bounds().area() as u64);
+    let spp_requested = job.sampling.spp;
+    // A single sample makes no pair.
+    let (tiles, spp, adaptive) = match job.sampling.noise.filter(|_| spp_requested > 1) {
+        None => {
+            let (tiles, spp) = uniform(job, &film, &mut estimator, &mut passes);
+            (tiles, spp, None)
+        }
+        Some(target) => {
+            let (tiles, adaptive) = adaptive::render(job, target, &film, &mut estimator, &mut passes);
+            (tiles, adaptive.mean_spp.round() as u32, Some(adaptive))
+        }
+    };
+    let report = Report { spp, spp_requested, adaptive, ..passes.report() };
+    Ok(Rendering { frame: picture(job, &film, &tiles, &report)?, report })
+}
+
+/// The same number of samples for every pixel; returns the tiles and that number.
+fn uniform(
+    job: &RenderJob,
+    film: &Film,
+    estimator: &mut Estimator<'_>,
+    passes: &mut Passes<'_>,
+) -> (Vec<FilmTile>, u32) {
     let mut items: Vec<Item> = film
         .bounds()
         .tiles(TILE_SIDE)
@@ -77,23 +103,20 @@ fn execute(
         .map(|b| Item { tile: film.tile(b), notes: None })
         .collect();
     let spp = job.sampling.spp;
-    let pixels = film.bounds().area() as u64;
-    let mut passes = Passes::new(options, sink, cancel, pixels);
+    let expected = film.bounds().area() as u64 * u64::from(spp);
     let mut done = 0;
     while done < spp {
         let lesson = estimator.next_lesson(done).filter(|&end| end > done && end <= spp);
         for item in &mut items {
             item.notes = lesson.and_then(|_| estimator.notebook());
         }
-        let worker = Worker::new(job, &film, &estimator);
+        let worker = Worker::new(job, film, estimator);
         let end = passes.round(
             &mut items,
             done..lesson.unwrap_or(spp),
-            pixels * u64::from(spp),
-            || worker.state(),
-            |state, item: &mut Item, indices| {
-                worker.add_samples(state, &mut item.tile, item.notes.as_mut(), indices)
-            },
+            expected,
+            || worker.state(Sequences::One),
+            |state, item, indices| worker.add_samples(state, &mut item.tile, item.notes.as_mut(), indices),
         );
         done = end.next;
         if end.stopped {
@@ -103,9 +126,7 @@ fn execute(
             estimator.learn(&job.scene, items.iter_mut().filter_map(|item| item.notes.take()).collect());
         }
     }
-    let tiles = items.iter().map(|item| &item.tile);
-    let frame = picture(job, &film, tiles, done)?;
-    Ok(Rendering { frame, report: Report { spp: done, spp_requested: spp, ..passes.report() } })
+    (items.into_iter().map(|item| item.tile).collect(), done)
 }
 
 /// What one thread works on at a time.
@@ -115,12 +136,7 @@ struct Item {
     notes: Option<Notes>,
 }
 
-fn picture<'a>(
-    job: &RenderJob,
-    film: &Film,
-    tiles: impl Iterator<Item = &'a FilmTile>,
-    spp: u32,
-) -> Result<Frame, RenderError> {
+fn picture(job: &RenderJob, film: &Film, tiles: &[FilmTile], report: &Report) -> Result<Frame, RenderError> {
     let developed = film.develop(tiles);
     let b = developed.bounds;
     let window = Window { x: b.min[0], y: b.min[1], width: b.width() as u32, height: b.height() as u32 };
@@ -128,7 +144,7 @@ fn picture<'a>(
     for layer in developed.layers {
         frame.push_channel(layer.name, layer.values)?;
     }
-    for (name, value) in developed.attributes.into_iter().chain(setup::metadata(job, spp)) {
+    for (name, value) in developed.attributes.into_iter().chain(setup::metadata(job, report)) {
         frame.set_attribute(name, value);
     }
     Ok(frame)

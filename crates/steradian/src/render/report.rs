@@ -1,15 +1,16 @@
 //! What a render has to say about itself afterwards.
 
 use crate::integrator::Tally;
+use crate::scene::NoiseTarget;
 use std::fmt;
 use std::time::Duration;
 
 /// Counts, times and mishaps of one render.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Samples per pixel in the image.
+    /// Samples per pixel in the image; the rounded mean where pixels differ.
     pub spp: u32,
-    /// Samples per pixel that were asked for.
+    /// Samples per pixel that were asked for, or allowed.
     pub spp_requested: u32,
     /// Pixels rendered.
     pub pixels: u64,
@@ -21,6 +22,49 @@ pub struct Report {
     pub tally: Tally,
     /// Samples that were not finite.
     pub dropped: Dropped,
+    /// How the samples were spread over the picture; `None` when every pixel got the same number.
+    pub adaptive: Option<Adaptive>,
+}
+
+/// What adaptive sampling did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptive {
+    /// The noise that was asked for.
+    pub target: NoiseTarget,
+    /// The noise of the picture, as defined by [`NoiseTarget`], estimated from the difference of its two halves.
+    pub noise: f64,
+    /// Samples per pixel in the image, on average.
+    pub mean_spp: f64,
+    /// Fewest samples of a pixel.
+    pub least_spp: u32,
+    /// Most samples of a pixel.
+    pub largest_spp: u32,
+    /// Share of pixels, in [0, 1], around which the noise is below the target.
+    pub quiet_share: f64,
+    /// Share of pixels, in [0, 1], that took as many samples as they may.
+    pub share_at_maximum: f64,
+}
+
+impl Adaptive {
+    /// Whether the noise is above the target by more than its own uncertainty allows, and pixels had no more samples to take.
+    pub fn stopped_by_maximum(&self) -> bool {
+        self.share_at_maximum > 0.0 && self.noise > 1.1 * f64::from(self.target.get())
+    }
+}
+
+impl fmt::Display for Adaptive {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "noise {:.3} % (target {} %), {:.1} spp on average ({} to {}), {:.1} % of the pixels below the target",
+            100.0 * self.noise,
+            100.0 * self.target.get(),
+            self.mean_spp,
+            self.least_spp,
+            self.largest_spp,
+            100.0 * self.quiet_share,
+        )
+    }
 }
 
 /// Samples that were NaN or infinite; they were left out of the image.
@@ -86,6 +130,9 @@ impl fmt::Display for Report {
         let t = &self.tally;
         let per_path = |n: u64| n as f64 / t.paths.max(1) as f64;
         writeln!(f, "samples per pixel    {} of {}", self.spp, self.spp_requested)?;
+        if let Some(adaptive) = &self.adaptive {
+            writeln!(f, "adaptive             {adaptive}")?;
+        }
         writeln!(f, "pixels               {}", self.pixels)?;
         writeln!(f, "paths                {}", t.paths)?;
         writeln!(f, "rays, closest hit    {} ({:.3} per path)", t.closest_rays, per_path(t.closest_rays))?;

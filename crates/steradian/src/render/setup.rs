@@ -1,5 +1,6 @@
 //! From a job's settings to a film and an integrator, and from a film to a picture with its metadata.
 
+use super::report::Report;
 use crate::film::{
     Film, FilmError, FilmKind, Filter, FilterError, FilterKind, PixelBounds, Sensor, SensorError,
     SensorSettings, SpectralBins,
@@ -139,15 +140,20 @@ pub(super) fn film(job: &RenderJob) -> Result<Film, RenderError> {
         }
     };
     let film = Film::new(d.resolution, bounds(d), filter, sensor, kind, space)?;
-    check_memory(&film)?;
+    check_memory(job, &film)?;
     Ok(film)
 }
 
 /// Asks for the memory of all tiles at once and gives it back: where that is refused, a message is better than an abort.
-fn check_memory(film: &Film) -> Result<(), RenderError> {
+fn check_memory(job: &RenderJob, film: &Film) -> Result<(), RenderError> {
     let b = film.bounds();
     let pixel = PixelBounds { min: b.min, max: [b.min[0] + 1, b.min[1] + 1] };
-    let bytes = film.tile(pixel).bytes().saturating_mul(b.area());
+    let halves = match job.sampling.noise {
+        None => 1,
+        // Both halves of the samples, and what they gain in a round.
+        Some(_) => 4,
+    };
+    let bytes = film.tile(pixel).bytes().saturating_mul(halves).saturating_mul(b.area());
     let mut probe: Vec<u8> = Vec::new();
     probe.try_reserve_exact(bytes).map_err(|_| RenderError::Memory((bytes >> 20) as u64))
 }
@@ -158,11 +164,11 @@ fn bounds(film: &desc::FilmDesc) -> PixelBounds {
 }
 
 /// Settings of a job that belong into the picture's metadata, as names and values.
-pub(super) fn metadata(job: &RenderJob, spp: u32) -> Vec<(&'static str, String)> {
+pub(super) fn metadata(job: &RenderJob, report: &Report) -> Vec<(&'static str, String)> {
     let mut list = vec![
         ("software", format!("Steradian {}", env!("CARGO_PKG_VERSION"))),
         ("renderer.integrator", job.integrator.name().to_owned()),
-        ("renderer.samplesPerPixel", spp.to_string()),
+        ("renderer.samplesPerPixel", report.spp.to_string()),
         ("renderer.sampler", format!("{:?}", job.sampling.kind)),
         ("renderer.filter", format!("{:?} radius {:?}", job.filter.kind, job.filter.radius)),
         ("renderer.seed", job.sampling.seed.to_string()),
@@ -172,6 +178,15 @@ pub(super) fn metadata(job: &RenderJob, spp: u32) -> Vec<(&'static str, String)>
         ("scene.metersPerUnit", job.meters_per_unit.to_string()),
         ("units.RGB", "cd.m^-2 at exposure 1 s and ISO 100, linear".to_owned()),
     ];
+    if let Some(adaptive) = &report.adaptive {
+        list.push(("renderer.noiseTarget", adaptive.target.get().to_string()));
+        list.push(("renderer.noise", format!("{:.5}", adaptive.noise)));
+        list.push((
+            "renderer.samplesPerPixelRange",
+            format!("{} {}", adaptive.least_spp, adaptive.largest_spp),
+        ));
+        list.push(("renderer.stoppedByMaximum", adaptive.stopped_by_maximum().to_string()));
+    }
     if job.scene.materials().has_inconsistent_coats() {
         list.push(("bias.layeredWeights", "pbrt-v4".to_owned()));
     }

@@ -5,6 +5,7 @@ use super::setup::Estimator;
 use crate::camera::CameraSample;
 use crate::film::{Film, FilmSample, FilmTile, Recorded, SurfaceLayers};
 use crate::integrator::{FirstSurface, Notes, Tally, VisibleSurface};
+use crate::math::hash::mix_bits;
 use crate::math::{Normal, Transform, Vec2};
 use crate::sampler::Sampler;
 use crate::scene::desc::{FilmKind, GBufferSpace};
@@ -14,8 +15,18 @@ use std::ops::Range;
 
 /// What a thread owns.
 pub(super) struct State {
-    pub(super) sampler: Sampler,
+    /// The sequences, independent of each other.
+    samplers: [Sampler; 2],
     pub(super) log: Log,
+}
+
+/// Into how many independent sequences the samples of a pixel are divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sequences {
+    /// All are one.
+    One,
+    /// Pairs, one of each.
+    Two,
 }
 
 /// What a thread has to say about its samples.
@@ -38,10 +49,14 @@ impl<'a> Worker<'a> {
         Self { job, film, estimator, layer_from_render: layer_space(job) }
     }
 
-    pub(super) fn state(&self) -> State {
+    pub(super) fn state(&self, sequences: Sequences) -> State {
         let s = &self.job.sampling;
-        let sampler = Sampler::new(s.kind, s.spp, self.film.resolution(), s.seed);
-        State { sampler, log: Log::default() }
+        let spp = match sequences {
+            Sequences::One => s.spp,
+            Sequences::Two => s.spp / 2,
+        };
+        let sampler = |seed| Sampler::new(s.kind, spp, self.film.resolution(), seed);
+        State { samplers: [sampler(s.seed), sampler(mix_bits(!s.seed))], log: Log::default() }
     }
 
     /// Adds the samples `indices` of every pixel to the tile; returns how many that were.
@@ -52,7 +67,7 @@ impl<'a> Worker<'a> {
         notes: Option<&mut Notes>,
         indices: Range<u32>,
     ) -> u64 {
-        let State { sampler, log } = state;
+        let State { samplers: [sampler, _], log } = state;
         let bounds = tile.bounds();
         match notes {
             None => {
@@ -72,6 +87,39 @@ impl<'a> Worker<'a> {
             }
         }
         bounds.area() as u64 * u64::from(indices.end - indices.start)
+    }
+
+    /// Adds the samples `indices` of both sequences to the given pixels, one sequence a tile.
+    pub(super) fn add_pairs(
+        &self,
+        state: &mut State,
+        tiles: &mut [FilmTile; 2],
+        pixels: &[[i32; 2]],
+        notes: Option<&mut Notes>,
+        indices: Range<u32>,
+    ) {
+        let State { samplers, log } = state;
+        match notes {
+            None => {
+                for &pixel in pixels {
+                    for (sampler, tile) in samplers.iter_mut().zip(tiles.iter_mut()) {
+                        for index in indices.clone() {
+                            self.add_sample(sampler, log, tile, pixel, index, None);
+                        }
+                    }
+                }
+            }
+            // Index by index, for the same reason.
+            Some(notes) => {
+                for index in indices {
+                    for &pixel in pixels {
+                        for (sampler, tile) in samplers.iter_mut().zip(tiles.iter_mut()) {
+                            self.add_sample(sampler, log, tile, pixel, index, Some(&mut *notes));
+                        }
+                    }
+                }
+            }
+        }
     }
 
     fn add_sample(

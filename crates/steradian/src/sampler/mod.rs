@@ -144,6 +144,9 @@ impl Sampler {
 }
 
 #[cfg(test)]
+mod blue_noise;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -1,7 +1,7 @@
 //! Everything that one render needs: the compiled scene and the settings around it.
 
 use super::compiled::Scene;
-use super::desc::{FilmDesc, FilterDesc};
+use super::desc::{FilmDesc, FilterDesc, NoiseTarget};
 use crate::color::ColorSpace;
 use crate::light::Light;
 use crate::math::Transform;
@@ -35,8 +35,10 @@ pub struct RenderJob {
 pub struct Sampling {
     /// Family of points.
     pub kind: SamplerKind,
-    /// Samples per pixel, ≥ 1.
+    /// Samples per pixel, ≥ 1; the most that a pixel gets where a noise is aimed at.
     pub spp: u32,
+    /// The noise to aim at; `None` gives every pixel the same number of samples.
+    pub noise: Option<NoiseTarget>,
     /// Seed.
     pub seed: u64,
     /// Whether samples are spread by the pixel filter or lie at pixel centres.

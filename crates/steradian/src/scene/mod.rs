@@ -16,7 +16,7 @@ pub mod import;
 pub mod source;
 pub mod text;
 
-pub use desc::SceneDesc;
+pub use desc::{NoiseTarget, SceneDesc};
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, nearest};
 pub use files::{Disk, FileBytes, FileSystem, MemoryFiles};
 pub use source::{FileId, Location, SourceMap, Span};

@@ -1,6 +1,6 @@
 //! Settings given outside the scene, which win over the scene's own.
 
-use super::desc::{ClassicDesc, IntegratorKind, MAX_SAMPLES, PathDesc, SamplerKind, SceneDesc};
+use super::desc::{ClassicDesc, IntegratorKind, MAX_SAMPLES, NoiseTarget, PathDesc, SamplerKind, SceneDesc};
 use super::diagnostic::nearest;
 
 /// What a user may change without touching the scene; `None` leaves the scene's value.
@@ -8,6 +8,8 @@ use super::diagnostic::nearest;
 pub struct Overrides {
     /// Samples per pixel, from 1 to [`MAX_SAMPLES`].
     pub spp: Option<u32>,
+    /// The noise to aim at.
+    pub noise: Option<NoiseTarget>,
     /// Width and height [pixels], ≥ 1.
     pub resolution: Option<[u32; 2]>,
     /// Part of the picture x0, x1, y0, y1 as fractions, ascending in [0, 1].
@@ -72,6 +74,9 @@ impl Overrides {
                 *x = (1..=spp.isqrt()).rev().find(|n| spp.is_multiple_of(*n)).unwrap_or(1);
                 *y = spp / *x;
             }
+        }
+        if self.noise.is_some() {
+            desc.sampler.noise = self.noise;
         }
         if let Some(seed) = self.seed {
             desc.sampler.seed = Some(seed);

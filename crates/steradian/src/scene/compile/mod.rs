@@ -120,6 +120,7 @@ pub fn compile_with_tables(
         sampling: Sampling {
             kind,
             spp: desc.sampler.pixel_samples,
+            noise: desc.sampler.noise,
             seed: seed(desc),
             pixel_jitter: jitter(options.disable_pixel_jitter),
             wavelength_jitter: jitter(options.disable_wavelength_jitter),

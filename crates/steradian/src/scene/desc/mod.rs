@@ -23,7 +23,7 @@ pub use light::{AreaLightDesc, AreaRadiance, LightDesc, LightKind, Normalization
 pub use material::{ArgumentDesc, ArgumentValue, MaterialDesc};
 pub use medium::{MediumCoefficients, MediumDesc, MediumEmission, MediumInterface, MediumKind};
 pub use options::{OptionsDesc, RenderingSpace};
-pub use sampler::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};
+pub use sampler::{MAX_SAMPLES, NoiseTarget, Randomization, SamplerDesc, SamplerKind};
 pub use shape::{CurveBasis, CurveDesc, CurveKind, InstanceDesc, MeshDesc, ObjectDesc, ShapeDesc, ShapeKind};
 pub use sky::{HorizonDesc, SkyDesc, SkyKindDesc, SunDesc, SunPlaceDesc, SunPositionDesc};
 pub use texture::{

@@ -1,7 +1,7 @@
 //! Sampler classes.
 
 use super::args::Args;
-use crate::scene::desc::{MAX_SAMPLES, Randomization, SamplerDesc, SamplerKind};
+use crate::scene::desc::{MAX_SAMPLES, NoiseTarget, Randomization, SamplerDesc, SamplerKind};
 use crate::scene::source::Span;
 use crate::scene::text::Text;
 
@@ -19,7 +19,8 @@ const RANDOMIZATIONS: [(&str, Randomization); 4] = [
 
 /// The sampler of a scene that has no Sampler directive.
 pub(super) fn default_sampler(span: Span) -> SamplerDesc {
-    SamplerDesc { kind: SamplerKind::ZSobol(Randomization::FastOwen), pixel_samples: 16, seed: None, span }
+    let kind = SamplerKind::ZSobol(Randomization::FastOwen);
+    SamplerDesc { kind, pixel_samples: 16, noise: None, seed: None, span }
 }
 
 /// Reads the parameters of a sampler class; `None` when it is unknown (and reported).
@@ -58,5 +59,15 @@ pub(super) fn sampler(class: &Text, directive: Span, args: &mut Args<'_>) -> Opt
             format!("{pixel_samples} strata are more than the {MAX_SAMPLES} samples that a pixel can have"),
         );
     }
-    Some(SamplerDesc { kind, pixel_samples, seed: args.int_opt("seed"), span: directive })
+    // Our own; pbrt-v4 knows no such parameter.
+    let noise_span = args.span_of("noise");
+    let noise = args.float_opt("noise").and_then(|fraction| {
+        let target = NoiseTarget::new(fraction);
+        if target.is_none() {
+            let demand = "must be above 0 and at most 1, such as 0.01";
+            args.error(noise_span, format!("parameter \"noise\" {demand}, found {fraction}"));
+        }
+        target
+    });
+    Some(SamplerDesc { kind, pixel_samples, noise, seed: args.int_opt("seed"), span: directive })
 }
