@@ -50,7 +50,7 @@ impl PixelBounds {
     }
 
     /// All pixels, row by row.
-    pub fn pixels(&self) -> impl Iterator<Item = [i32; 2]> + use<> {
+    pub fn pixels(&self) -> impl Iterator<Item = [i32; 2]> + Clone + use<> {
         let Self { min, max } = *self;
         (min[1]..max[1]).flat_map(move |y| (min[0]..max[0]).map(move |x| [x, y]))
     }

@@ -119,51 +119,30 @@ impl FilmTile {
 }
 
 impl FilmTile {
-    /// Adds what another tile of the same film and bounds recorded of a pixel.
-    pub fn absorb(&mut self, other: &Self, pixel: [i32; 2]) {
+    /// Adds what another tile of the same film and bounds recorded.
+    pub fn absorb(&mut self, other: &Self) {
         debug_assert_eq!(self.bounds, other.bounds);
-        if let Some(index) = self.bounds.index(pixel) {
-            self.add_scaled(other, index, 1.0);
+        let add3 = |a: &mut [f64; 3], b: [f64; 3]| (0..3).for_each(|i| a[i] += b[i]);
+        for (own, others) in self.pixels.iter_mut().zip(&other.pixels) {
+            add3(&mut own.sum, others.sum);
+            own.weight += others.weight;
+            own.luminance = own.luminance.merge(others.luminance);
         }
-    }
-
-    /// Adds what another tile of the same film and bounds recorded, scaled such that in every pixel both count for one half
-    /// whatever their numbers of samples: where those numbers depend on the samples, a pooled mean would be biased.
-    ///
-    /// Numbers and variances of samples are those of all samples.
-    pub fn balance(&mut self, other: &Self) {
-        debug_assert_eq!(self.bounds, other.bounds);
-        for index in 0..self.pixels.len() {
-            let (own, others) = (self.pixels[index].luminance.n, other.pixels[index].luminance.n);
-            let scale = if own == 0 || others == 0 { 1.0 } else { f64::from(own) / f64::from(others) };
-            self.add_scaled(other, index, scale);
-        }
-    }
-
-    fn add_scaled(&mut self, other: &Self, index: usize, scale: f64) {
-        let add = |a: &mut f64, b: f64| *a += scale * b;
-        let add3 = |a: &mut [f64; 3], b: [f64; 3]| (0..3).for_each(|i| a[i] += scale * b[i]);
-        let (own, others) = (&mut self.pixels[index], &other.pixels[index]);
-        add3(&mut own.sum, others.sum);
-        add(&mut own.weight, others.weight);
-        own.luminance = own.luminance.merge(others.luminance);
-        if let (Some(own), Some(others)) = (self.surfaces.get_mut(index), other.surfaces.get(index)) {
-            add(&mut own.weight, others.weight);
+        for (own, others) in self.surfaces.iter_mut().zip(&other.surfaces) {
+            own.weight += others.weight;
             add3(&mut own.p, others.p);
             add3(&mut own.n, others.n);
             add3(&mut own.ns, others.ns);
             add3(&mut own.albedo, others.albedo);
             for axis in 0..2 {
-                add(&mut own.uv[axis], others.uv[axis]);
-                add(&mut own.dz[axis], others.dz[axis]);
+                own.uv[axis] += others.uv[axis];
+                own.dz[axis] += others.dz[axis];
             }
             (0..3).for_each(|c| own.rgb[c] = own.rgb[c].merge(others.rgb[c]));
         }
-        let count = self.bins.len() / self.pixels.len().max(1);
-        let bins = index * count..(index + 1) * count;
-        for (own, others) in self.bins[bins.clone()].iter_mut().zip(&other.bins[bins]) {
-            add(&mut own.sum, others.sum);
-            add(&mut own.weight, others.weight);
+        for (own, others) in self.bins.iter_mut().zip(&other.bins) {
+            own.sum += others.sum;
+            own.weight += others.weight;
         }
     }
 }

@@ -22,10 +22,11 @@ use crate::film::{Film, FilmTile};
 use crate::image::{Frame, Window};
 use crate::integrator::Notes;
 use crate::scene::RenderJob;
+use noise::Teller;
 use rounds::Passes;
 use setup::Estimator;
 use std::time::Duration;
-use worker::{Sequences, Worker};
+use worker::Worker;
 
 /// Pixels along the side of a tile: small enough to balance load at the end of a pass, large enough that
 /// the queue's lock does not show.
@@ -74,14 +75,14 @@ fn execute(
     let film = setup::film(job)?;
     let mut passes = Passes::new(options, sink, cancel, film.bounds().area() as u64);
     let spp_requested = job.sampling.spp;
-    // A single sample makes no pair.
-    let (tiles, spp, adaptive) = match job.sampling.noise.filter(|_| spp_requested > 1) {
+    let (tiles, spp, adaptive) = match job.sampling.noise {
         None => {
             let (tiles, spp) = uniform(job, &film, &mut estimator, &mut passes);
             (tiles, spp, None)
         }
         Some(target) => {
-            let (tiles, adaptive) = adaptive::render(job, target, &film, &mut estimator, &mut passes);
+            let (tiles, adaptive) =
+                adaptive::render(Teller::Others, job, target, &film, &mut estimator, &mut passes);
             (tiles, adaptive.mean_spp.round() as u32, Some(adaptive))
         }
     };
@@ -115,8 +116,11 @@ fn uniform(
             &mut items,
             done..lesson.unwrap_or(spp),
             expected,
-            || worker.state(Sequences::One),
-            |state, item, indices| worker.add_samples(state, &mut item.tile, item.notes.as_mut(), indices),
+            || worker.state(),
+            |state, item, indices| {
+                let pixels = item.tile.bounds().pixels();
+                worker.add_samples(state, &mut item.tile, pixels, item.notes.as_mut(), indices)
+            },
         );
         done = end.next;
         if end.stopped {

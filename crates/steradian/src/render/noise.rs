@@ -9,14 +9,29 @@
 pub(super) const OUTLIERS: f64 = 0.01;
 
 /// Pixels on each side of a pixel over which variances are averaged: one difference of two means says little.
-const WINDOW: usize = 3;
+const WINDOW: usize = 5;
+
+/// Share of the whole picture in what a pixel is told: that nothing rare was seen around it does not make it quiet.
+const PICTURE: f32 = 0.1;
+
+/// Whom a pixel believes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Teller {
+    /// The pixels of the other colour of a checkerboard in the window around it.
+    Others,
+    /// All pixels in the window.
+    All,
+    /// Itself alone. Biased.
+    #[cfg_attr(not(test), expect(dead_code, reason = "shows that the test of bias can fail"))]
+    Itself,
+}
 
 /// What is known about the pixels of a picture.
 pub(super) struct Knowledge<'a> {
-    /// Relative variance of one sample, smoothed.
+    /// Relative variance of one sample, as it is told.
     pub(super) variance: &'a [f32],
-    /// Samples that the pixel keeps.
-    pub(super) kept: &'a [u32],
+    /// Samples that the pixel has.
+    pub(super) taken: &'a [u32],
     /// Whether the pixel still takes samples.
     pub(super) open: &'a [bool],
 }
@@ -36,8 +51,8 @@ pub(super) fn plan(known: &Knowledge<'_>, target: f64, now: u32, most: u32) -> P
     let count = known.variance.iter().filter(|&&c| c <= limit).count().max(1);
     let evaluate = |lambda: f64| {
         let (mut noise, mut samples) = (0.0, 0);
-        for ((&c, &kept), &open) in known.variance.iter().zip(known.kept).zip(known.open) {
-            let n = if open { doubled(f64::from(c), lambda, now, most) } else { kept };
+        for ((&c, &taken), &open) in known.variance.iter().zip(known.taken).zip(known.open) {
+            let n = if open { doubled(f64::from(c), lambda, now, most) } else { taken };
             samples += u64::from(n);
             if c <= limit {
                 noise += f64::from(c) / f64::from(n.max(1));
@@ -80,8 +95,37 @@ fn outlier_limit(variance: &[f32]) -> f32 {
     }
 }
 
-/// Mean over the window around each pixel of a picture `width` pixels wide, as far as it lies inside.
-pub(super) fn smoothed(values: &[f32], width: usize) -> Vec<f32> {
+/// What each pixel of a picture `width` pixels wide is told about `values`: the mean over the pixels that it believes,
+/// with a share of the mean over the picture.
+pub(super) fn told(values: &[f32], width: usize, teller: Teller) -> Vec<f32> {
+    let local = match teller {
+        Teller::Itself => return values.to_vec(),
+        Teller::All => smoothed(values, width),
+        Teller::Others => {
+            let color = |i: usize| (i % width + i / width) & 1;
+            let sums = |of: usize, value: &dyn Fn(usize) -> f32| {
+                let masked: Vec<f32> =
+                    (0..values.len()).map(|i| if color(i) == of { value(i) } else { 0.0 }).collect();
+                smoothed(&masked, width)
+            };
+            let by = [0, 1].map(|of| (sums(of, &|i| values[i]), sums(of, &|_| 1.0)));
+            let mean = |i: usize| {
+                let (sum, count) = &by[1 - color(i)];
+                // A picture of one pixel has no others.
+                if count[i] > 0.0 { sum[i] / count[i] } else { values[i] }
+            };
+            (0..values.len()).map(mean).collect()
+        }
+    };
+    let limit = outlier_limit(&local);
+    let kept = local.iter().filter(|&&v| v <= limit);
+    let (sum, count) = kept.fold((0.0, 0_u32), |(sum, n), &v| (sum + f64::from(v), n + 1));
+    let share = PICTURE * (sum / f64::from(count.max(1))) as f32;
+    local.into_iter().map(|v| (1.0 - PICTURE) * v + share).collect()
+}
+
+/// Mean over the window around each pixel, as far as it lies inside.
+fn smoothed(values: &[f32], width: usize) -> Vec<f32> {
     if width == 0 {
         return Vec::new();
     }
@@ -110,16 +154,16 @@ mod tests {
 
     const TARGET: f64 = 0.01;
 
-    fn known<'a>(variance: &'a [f32], kept: &'a [u32], open: &'a [bool]) -> Knowledge<'a> {
-        Knowledge { variance, kept, open }
+    fn known<'a>(variance: &'a [f32], taken: &'a [u32], open: &'a [bool]) -> Knowledge<'a> {
+        Knowledge { variance, taken, open }
     }
 
     #[test]
     fn the_plan_meets_the_target_with_fewer_samples_than_equal_counts_would() {
         // Standard deviations over two decades: equal counts need E[σ²]/E[σ]² = 2.32 times the samples.
         let variance: Vec<f32> = (0..1000).map(|i| 10_f32.powf(4.0 * i as f32 / 1000.0 - 4.0)).collect();
-        let (kept, open) = (vec![8; 1000], vec![true; 1000]);
-        let plan = plan(&known(&variance, &kept, &open), TARGET, 8, 1 << 20);
+        let (taken, open) = (vec![8; 1000], vec![true; 1000]);
+        let plan = plan(&known(&variance, &taken, &open), TARGET, 8, 1 << 20);
         let counts: Vec<u32> = variance.iter().map(|&c| doubled(c.into(), plan.lambda, 8, 1 << 20)).collect();
         assert_eq!(counts.iter().map(|&n| u64::from(n)).sum::<u64>(), plan.samples);
         let reached: Vec<f32> = variance.iter().zip(&counts).map(|(c, &n)| c / n as f32).collect();
@@ -135,25 +179,35 @@ mod tests {
     #[test]
     fn pixels_stay_within_their_bounds() {
         let variance = [0.0, 1e-9, 1.0, 1e9];
-        let (kept, open) = ([8, 8, 8, 2], [true, true, true, false]);
-        let hopeless = plan(&known(&variance, &kept, &open), TARGET, 8, 64);
+        let (taken, open) = ([8, 8, 8, 2], [true, true, true, false]);
+        let hopeless = plan(&known(&variance, &taken, &open), TARGET, 8, 64);
         let n = |c| doubled(c, hopeless.lambda, 8, 64);
         assert_eq!((n(0.0), n(1.0)), (8, 64));
         assert_eq!(hopeless.samples, 8 + u64::from(n(1e-9)) + 64 + 2);
         // What is quiet already takes no more.
-        let quiet = plan(&known(&[1e-9; 4], &kept, &open), TARGET, 8, 64);
+        let quiet = plan(&known(&[1e-9; 4], &taken, &open), TARGET, 8, 64);
         assert_eq!(quiet.samples, 26);
     }
 
     #[test]
-    fn smoothing_keeps_constants_and_spreads_one_pixel_over_its_window() {
-        assert!(smoothed(&[2.0; 35], 7).iter().all(|v| (v - 2.0).abs() < 1e-6));
-        let mut one = vec![0.0; 20 * 11];
-        one[5 * 20 + 10] = 49.0;
-        let s = smoothed(&one, 20);
-        for (i, v) in s.iter().enumerate() {
-            let inside = (i % 20).abs_diff(10) <= 3 && (i / 20).abs_diff(5) <= 3;
-            assert!((v - f32::from(u8::from(inside))).abs() < 1e-5 || !inside && *v == 0.0, "{i}: {v}");
+    fn a_pixel_is_told_by_its_neighbours_of_the_other_colour_alone() {
+        let (width, height) = (20, 16);
+        for teller in [Teller::Others, Teller::All, Teller::Itself] {
+            assert!(told(&[2.0; 320], width, teller).iter().all(|v| (v - 2.0).abs() < 1e-5), "{teller:?}");
         }
+        let mut one = vec![0.0; width * height];
+        let (x, y) = (10, 7);
+        one[y * width + x] = 1000.0;
+        let heard = told(&one, width, Teller::Others);
+        let background = heard[0];
+        for (i, v) in heard.iter().enumerate() {
+            let (dx, dy) = ((i % width).abs_diff(x), (i / width).abs_diff(y));
+            let tells = dx <= 5 && dy <= 5 && (dx + dy) % 2 == 1;
+            // 121 pixels of the window, of which 60 or 61 tell, and fewer at the border.
+            assert_eq!(*v > background + 10.0, tells, "{i}: {v}");
+            assert!(tells || (v - background).abs() < 1e-6, "{i}: {v}");
+        }
+        assert_eq!(told(&[3.0], 1, Teller::Others), [3.0]);
+        assert!(told(&[], 0, Teller::Others).is_empty());
     }
 }

@@ -31,8 +31,8 @@ pub struct Report {
 pub struct Adaptive {
     /// The noise that was asked for.
     pub target: NoiseTarget,
-    /// The noise of the picture, as defined by [`NoiseTarget`], estimated from the difference of its two halves.
-    pub noise: f64,
+    /// The noise of the picture, as defined by [`NoiseTarget`]; `None` when there are too few samples to tell.
+    pub noise: Option<f64>,
     /// Samples per pixel in the image, on average.
     pub mean_spp: f64,
     /// Fewest samples of a pixel.
@@ -46,18 +46,21 @@ pub struct Adaptive {
 }
 
 impl Adaptive {
-    /// Whether the noise is above the target by more than its own uncertainty allows, and pixels had no more samples to take.
+    /// Whether the noise is above the target and pixels could take no more samples.
     pub fn stopped_by_maximum(&self) -> bool {
-        self.share_at_maximum > 0.0 && self.noise > 1.1 * f64::from(self.target.get())
+        self.share_at_maximum > 0.0 && self.noise.is_none_or(|noise| noise > f64::from(self.target.get()))
     }
 }
 
 impl fmt::Display for Adaptive {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.noise {
+            Some(noise) => write!(f, "noise {:.3} %", 100.0 * noise)?,
+            None => write!(f, "unknown noise")?,
+        }
         write!(
             f,
-            "noise {:.3} % (target {} %), {:.1} spp on average ({} to {}), {:.1} % of the pixels below the target",
-            100.0 * self.noise,
+            " (target {} %), {:.1} spp on average ({} to {}), {:.1} % of the pixels below the target",
             100.0 * self.target.get(),
             self.mean_spp,
             self.least_spp,

@@ -148,12 +148,12 @@ pub(super) fn film(job: &RenderJob) -> Result<Film, RenderError> {
 fn check_memory(job: &RenderJob, film: &Film) -> Result<(), RenderError> {
     let b = film.bounds();
     let pixel = PixelBounds { min: b.min, max: [b.min[0] + 1, b.min[1] + 1] };
-    let halves = match job.sampling.noise {
+    let tiles = match job.sampling.noise {
         None => 1,
-        // Both halves of the samples, and what they gain in a round.
-        Some(_) => 4,
+        // All samples, and those of a round.
+        Some(_) => 2,
     };
-    let bytes = film.tile(pixel).bytes().saturating_mul(halves).saturating_mul(b.area());
+    let bytes = film.tile(pixel).bytes().saturating_mul(tiles).saturating_mul(b.area());
     let mut probe: Vec<u8> = Vec::new();
     probe.try_reserve_exact(bytes).map_err(|_| RenderError::Memory((bytes >> 20) as u64))
 }
@@ -179,8 +179,9 @@ pub(super) fn metadata(job: &RenderJob, report: &Report) -> Vec<(&'static str, S
         ("units.RGB", "cd.m^-2 at exposure 1 s and ISO 100, linear".to_owned()),
     ];
     if let Some(adaptive) = &report.adaptive {
+        list.push(("bias.adaptiveSampling", "second order".to_owned()));
         list.push(("renderer.noiseTarget", adaptive.target.get().to_string()));
-        list.push(("renderer.noise", format!("{:.5}", adaptive.noise)));
+        list.extend(adaptive.noise.map(|noise| ("renderer.noise", format!("{noise:.5}"))));
         list.push((
             "renderer.samplesPerPixelRange",
             format!("{} {}", adaptive.least_spp, adaptive.largest_spp),

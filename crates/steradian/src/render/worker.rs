@@ -5,7 +5,6 @@ use super::setup::Estimator;
 use crate::camera::CameraSample;
 use crate::film::{Film, FilmSample, FilmTile, Recorded, SurfaceLayers};
 use crate::integrator::{FirstSurface, Notes, Tally, VisibleSurface};
-use crate::math::hash::mix_bits;
 use crate::math::{Normal, Transform, Vec2};
 use crate::sampler::Sampler;
 use crate::scene::desc::{FilmKind, GBufferSpace};
@@ -15,18 +14,8 @@ use std::ops::Range;
 
 /// What a thread owns.
 pub(super) struct State {
-    /// The sequences, independent of each other.
-    samplers: [Sampler; 2],
+    pub(super) sampler: Sampler,
     pub(super) log: Log,
-}
-
-/// Into how many independent sequences the samples of a pixel are divided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sequences {
-    /// All are one.
-    One,
-    /// Pairs, one of each.
-    Two,
 }
 
 /// What a thread has to say about its samples.
@@ -49,29 +38,27 @@ impl<'a> Worker<'a> {
         Self { job, film, estimator, layer_from_render: layer_space(job) }
     }
 
-    pub(super) fn state(&self, sequences: Sequences) -> State {
+    pub(super) fn state(&self) -> State {
         let s = &self.job.sampling;
-        let spp = match sequences {
-            Sequences::One => s.spp,
-            Sequences::Two => s.spp / 2,
-        };
-        let sampler = |seed| Sampler::new(s.kind, spp, self.film.resolution(), seed);
-        State { samplers: [sampler(s.seed), sampler(mix_bits(!s.seed))], log: Log::default() }
+        let sampler = Sampler::new(s.kind, s.spp, self.film.resolution(), s.seed);
+        State { sampler, log: Log::default() }
     }
 
-    /// Adds the samples `indices` of every pixel to the tile; returns how many that were.
+    /// Adds the samples `indices` of the given pixels to their tile; returns how many that were.
     pub(super) fn add_samples(
         &self,
         state: &mut State,
         tile: &mut FilmTile,
+        pixels: impl Iterator<Item = [i32; 2]> + Clone,
         notes: Option<&mut Notes>,
         indices: Range<u32>,
     ) -> u64 {
-        let State { samplers: [sampler, _], log } = state;
-        let bounds = tile.bounds();
+        let State { sampler, log } = state;
+        let mut count = 0;
         match notes {
             None => {
-                for pixel in bounds.pixels() {
+                for pixel in pixels {
+                    count += 1;
                     for index in indices.clone() {
                         self.add_sample(sampler, log, tile, pixel, index, None);
                     }
@@ -80,46 +67,15 @@ impl<'a> Worker<'a> {
             // Index by index, so that the order of the notes does not depend on where passes end.
             Some(notes) => {
                 for index in indices.clone() {
-                    for pixel in bounds.pixels() {
+                    count = 0;
+                    for pixel in pixels.clone() {
+                        count += 1;
                         self.add_sample(sampler, log, tile, pixel, index, Some(&mut *notes));
                     }
                 }
             }
         }
-        bounds.area() as u64 * u64::from(indices.end - indices.start)
-    }
-
-    /// Adds the samples `indices` of both sequences to the given pixels, one sequence a tile.
-    pub(super) fn add_pairs(
-        &self,
-        state: &mut State,
-        tiles: &mut [FilmTile; 2],
-        pixels: &[[i32; 2]],
-        notes: Option<&mut Notes>,
-        indices: Range<u32>,
-    ) {
-        let State { samplers, log } = state;
-        match notes {
-            None => {
-                for &pixel in pixels {
-                    for (sampler, tile) in samplers.iter_mut().zip(tiles.iter_mut()) {
-                        for index in indices.clone() {
-                            self.add_sample(sampler, log, tile, pixel, index, None);
-                        }
-                    }
-                }
-            }
-            // Index by index, for the same reason.
-            Some(notes) => {
-                for index in indices {
-                    for &pixel in pixels {
-                        for (sampler, tile) in samplers.iter_mut().zip(tiles.iter_mut()) {
-                            self.add_sample(sampler, log, tile, pixel, index, Some(&mut *notes));
-                        }
-                    }
-                }
-            }
-        }
+        count * u64::from(indices.end - indices.start)
     }
 
     fn add_sample(
