@@ -51,6 +51,8 @@ fn wrong_arguments_are_refused_with_what_is_expected() {
     desk.run(&["render", "--sp", "4"]).refused("--spp");
     render("--spp", "0").refused("0 is not in 1..=16777216");
     render("--spp", "-4").refused("'-4'");
+    render("--noise", "little").refused("a percentage such as 1%, or a fraction such as 0.01");
+    render("--noise", "0%").refused("a percentage such as 1%");
     render("--resolution", "640").refused("such as 1280x720");
     render("--resolution", "0x4").refused("between 1 and 65536");
     render("--crop", "0,1,1,0").refused("0 <= Y0 < Y1 <= 1");
@@ -177,6 +179,49 @@ fn a_time_limit_ends_the_render_with_fewer_samples() {
     desk.run(&arguments).succeeded();
     let spp: u32 = picture(&desk, "a.exr").attribute("renderer.samplesPerPixel").unwrap().parse().unwrap();
     assert!((1..16_000_000).contains(&spp), "{spp}");
+}
+
+#[test]
+fn a_noise_target_takes_samples_where_they_are_needed_and_says_what_it_reached() {
+    let desk = new_desk();
+    let noise = |noise: &str, spp: &str| {
+        desk.run(&["render", "scene.pbrt", "--noise", noise, "--spp", spp, "-o", "a.exr"]).succeeded()
+    };
+    let said = noise("2%", "8192");
+    let lines: Vec<&str> = said.err.lines().collect();
+    assert_eq!(lines[0], "rendering 8 x 6 pixels with up to 8192 spp for 2 % of noise");
+    assert!(said.err.contains("(target 2 %)") && !said.err.contains("warning"), "{said:?}");
+    let frame = picture(&desk, "a.exr");
+    let number = |name: &str| frame.attribute(name).unwrap().parse::<f64>().unwrap();
+    assert!(number("renderer.noise") <= 0.024, "{said:?}");
+    let range: Vec<f64> = frame
+        .attribute("renderer.samplesPerPixelRange")
+        .unwrap()
+        .split(' ')
+        .map(|n| n.parse().unwrap())
+        .collect();
+    let mean = number("renderer.samplesPerPixel");
+    assert!(
+        range[0] >= 16.0 && range[0] <= mean && mean <= range[1] && range[1] <= 8192.0,
+        "{range:?} {mean}"
+    );
+    assert_eq!(frame.attribute("renderer.stoppedByMaximum"), Some("false"));
+    // A demand that the count does not allow is said to be one.
+    let said = noise("0.001", "32");
+    assert!(said.err.contains("warning: 100.0 % of the pixels took all 32 samples"), "{said:?}");
+    // The scene may ask for it, too.
+    desk.put(
+        "quiet.pbrt",
+        SCENE.replace(r#""integer pixelsamples" 4"#, r#""integer pixelsamples" 512 "float noise" 0.1"#),
+    );
+    desk.run(&["render", "quiet.pbrt", "-q", "-o", "b.exr"]).succeeded();
+    assert_eq!(picture(&desk, "b.exr").attribute("renderer.noiseTarget"), Some("0.1"));
+    desk.put("wrong.pbrt", SCENE.replace(r#""integer pixelsamples" 4"#, r#""float noise" 2"#));
+    let said = desk.run(&["check", "wrong.pbrt"]);
+    assert!(
+        said.code == Some(1) && said.err.contains("parameter \"noise\" must be above 0 and at most 1"),
+        "{said:?}"
+    );
 }
 
 #[test]

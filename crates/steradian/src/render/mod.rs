@@ -18,7 +18,7 @@ pub use report::{Adaptive, Dropped, DroppedSample, Report};
 pub use schedule::TileOrder;
 pub use setup::RenderError;
 
-use crate::film::{Film, FilmTile};
+use crate::film::{Film, FilmKind, FilmTile};
 use crate::image::{Frame, Window};
 use crate::integrator::Notes;
 use crate::scene::RenderJob;
@@ -147,6 +147,17 @@ fn picture(job: &RenderJob, film: &Film, tiles: &[FilmTile], report: &Report) ->
     let mut frame = Frame::new(developed.resolution, window, Some(job.output_space.kind()))?;
     for layer in developed.layers {
         frame.push_channel(layer.name, layer.values)?;
+    }
+    if report.adaptive.is_some() && film.kind() == FilmKind::GBuffer {
+        let mut counts = vec![0.0; b.area()];
+        for tile in tiles {
+            for pixel in tile.bounds().pixels() {
+                if let Some(at) = b.index(pixel) {
+                    counts[at] = tile.samples(pixel) as f32;
+                }
+            }
+        }
+        frame.push_channel("SampleCount", counts)?;
     }
     for (name, value) in developed.attributes.into_iter().chain(setup::metadata(job, report)) {
         frame.set_attribute(name, value);

@@ -46,9 +46,10 @@ pub struct Adaptive {
 }
 
 impl Adaptive {
-    /// Whether the noise is above the target and pixels could take no more samples.
+    /// Whether the noise is above the target, by more than it is uncertain, and pixels could take no more samples.
     pub fn stopped_by_maximum(&self) -> bool {
-        self.share_at_maximum > 0.0 && self.noise.is_none_or(|noise| noise > f64::from(self.target.get()))
+        self.share_at_maximum > 0.0
+            && self.noise.is_none_or(|noise| noise > 1.05 * f64::from(self.target.get()))
     }
 }
 

@@ -15,8 +15,12 @@ fn job(spp: u32) -> RenderJob {
 }
 
 fn job_with(sampler: &str, spp: u32) -> RenderJob {
+    job_of("rgb", sampler, spp)
+}
+
+fn job_of(film: &str, sampler: &str, spp: u32) -> RenderJob {
     let text = format!(
-        r#"Film "rgb" "integer xresolution" 40 "integer yresolution" 24
+        r#"Film "{film}" "integer xresolution" 40 "integer yresolution" 24
         Sampler "{sampler}" "integer pixelsamples" {spp}
         Camera "perspective"
         WorldBegin
@@ -200,7 +204,7 @@ fn being_told_by_others_has_no_bias_that_shows_and_deciding_for_oneself_has() {
 
 #[test]
 fn adaptive_pictures_depend_on_neither_threads_nor_tiles_nor_passes() {
-    let mut job = job(64);
+    let mut job = job_of("gbuffer", "zsobol", 64);
     job.sampling.noise = crate::scene::NoiseTarget::new(0.8);
     let run = |threads, tile_order, sink: &dyn ProgressSink| {
         let options = RenderOptions { threads: Some(threads), tile_order, time_limit: None };
@@ -208,9 +212,12 @@ fn adaptive_pictures_depend_on_neither_threads_nor_tiles_nor_passes() {
         let rendering = execute(&job, estimator, &options, sink, &CancelToken::new()).unwrap();
         let adaptive = rendering.report.adaptive.unwrap();
         assert!(adaptive.least_spp < adaptive.largest_spp, "{adaptive}");
-        (adaptive, rendering.frame.channel("G").unwrap().to_vec())
+        let counts = rendering.frame.channel("SampleCount").unwrap().to_vec();
+        (adaptive, rendering.frame.channel("G").unwrap().to_vec(), counts)
     };
     let expected = run(1, TileOrder::Scanline, &Silent);
+    let mean = expected.2.iter().map(|&n| f64::from(n)).sum::<f64>() / expected.2.len() as f64;
+    assert!((mean - expected.0.mean_spp).abs() < 1e-9);
     assert!(run(3, TileOrder::Strided, &Silent) == expected);
     assert!(run(4, TileOrder::Reverse, &Slow) == expected);
 }
