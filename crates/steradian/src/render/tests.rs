@@ -204,7 +204,7 @@ fn being_told_by_others_has_no_bias_that_shows_and_deciding_for_oneself_has() {
 
 #[test]
 fn adaptive_pictures_depend_on_neither_threads_nor_tiles_nor_passes() {
-    let mut job = job_of("gbuffer", "zsobol", 64);
+    let mut job = job_of("gbuffer", "independent", 64);
     job.sampling.noise = crate::scene::NoiseTarget::new(0.8);
     let run = |threads, tile_order, sink: &dyn ProgressSink| {
         let options = RenderOptions { threads: Some(threads), tile_order, time_limit: None };
