@@ -36,7 +36,7 @@ fn low_power(errors: &[f64]) -> f64 {
 fn errors(kind: SamplerKind, spp: u32, skip: u32) -> Vec<f64> {
     let mut s = Sampler::new(kind, spp, [SIDE as u32; 2], 7);
     let pixel = |i: usize| [(i % SIDE) as i32, (i / SIDE) as i32];
-    let mut estimate = |i: usize| {
+    let estimate = |i: usize| {
         let sum: f64 = (0..spp)
             .map(|index| {
                 s.start(pixel(i), index);
@@ -49,7 +49,7 @@ fn errors(kind: SamplerKind, spp: u32, skip: u32) -> Vec<f64> {
             .sum();
         sum / f64::from(spp)
     };
-    (0..SIDE * SIDE).map(|i| estimate(i)).collect()
+    (0..SIDE * SIDE).map(estimate).collect()
 }
 
 #[test]
