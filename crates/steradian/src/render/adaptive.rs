@@ -10,10 +10,9 @@
 //! Rounds double the number of samples. The squared difference between a pixel's samples of the last round and those before
 //! estimates the variance of its mean with the gain of low-discrepancy points, which the spread among samples does not show.
 
-use super::TILE_SIDE;
 use super::noise::{self, Knowledge, Teller};
 use super::report::Adaptive;
-use super::rounds::Passes;
+use super::rounds::{Passes, TILE_SIDE};
 use super::setup::Estimator;
 use super::worker::Worker;
 use crate::film::{Film, FilmTile, PixelBounds};

@@ -6,6 +6,7 @@
 
 mod adaptive;
 mod noise;
+pub mod options;
 pub mod progress;
 pub mod report;
 mod rounds;
@@ -13,6 +14,7 @@ pub mod schedule;
 pub mod setup;
 mod worker;
 
+pub use options::RenderOptions;
 pub use progress::{CancelToken, Progress, ProgressSink, Silent};
 pub use report::{Adaptive, Dropped, DroppedSample, Report};
 pub use schedule::TileOrder;
@@ -23,25 +25,9 @@ use crate::image::{Frame, Window};
 use crate::integrator::Notes;
 use crate::scene::RenderJob;
 use noise::Teller;
-use rounds::Passes;
+use rounds::{Passes, TILE_SIDE};
 use setup::Estimator;
-use std::time::Duration;
 use worker::Worker;
-
-/// Pixels along the side of a tile: small enough to balance load at the end of a pass, large enough that
-/// the queue's lock does not show.
-const TILE_SIDE: u32 = 16;
-
-/// How to execute a render; none of it changes the picture, except that a time limit may end it early.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RenderOptions {
-    /// Threads; `None` uses all that the machine offers.
-    pub threads: Option<usize>,
-    /// Order in which tiles are handed to threads.
-    pub tile_order: TileOrder,
-    /// Ends the render after the pass in which this time has passed.
-    pub time_limit: Option<Duration>,
-}
 
 /// A finished (or stopped) render.
 #[derive(Debug)]

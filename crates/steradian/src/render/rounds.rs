@@ -4,13 +4,18 @@
 //! decided between rounds. Within a round, *passes* over all tiles are cut by time, so that a stop leaves a complete
 //! picture with fewer samples; nothing may depend on where they end.
 
+use super::options::RenderOptions;
 use super::progress::{CancelToken, Progress, ProgressSink};
 use super::report::Report;
+use super::schedule;
 use super::worker::{Log, State};
-use super::{RenderOptions, schedule};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
+
+/// Pixels along the side of a tile: small enough to balance load at the end of a pass, large enough that
+/// the queue's lock does not show.
+pub(super) const TILE_SIDE: u32 = 16;
 
 /// Aimed length of a pass: how long a user waits for Ctrl-C or a time limit to take effect.
 const PASS_TIME: Duration = Duration::from_millis(1500);

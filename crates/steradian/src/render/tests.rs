@@ -8,6 +8,7 @@ use crate::spectrum::{Sampled, Wavelengths};
 use crate::units::Radiance;
 use std::path::Path;
 use std::sync::Mutex;
+use std::time::Duration;
 
 /// 40 × 24 pixels are six tiles, four of them cut.
 fn job(spp: u32) -> RenderJob {
