@@ -22,11 +22,11 @@ pub struct SamplerDesc {
 
 /// How much noise a picture may have.
 ///
-/// The noise of a pixel is the standard error of its R, G and B (root mean square of the three), divided by their mean, or
-/// by a tenth of the median of that mean over the lit pixels of the picture where that is more. The noise of a picture is
-/// the root mean square of its pixels' noise, where variances are averaged over 7 × 7 pixels and the noisiest hundredth is
-/// left out. A picture of noise 1 % thus differs from the converged one by about 1 % on average, by more where that is
-/// costly to change, and by less where it is cheap.
+/// The noise of a pixel is the standard error of its R, G and B (root mean square of the three), divided by their mean;
+/// by that of the 11 × 11 pixels around where that is less, and by a tenth of the median over the lit pixels of the
+/// picture where that is more. The noise of a picture is the root mean square of its pixels' noise, where each variance is
+/// averaged over the window and the noisiest hundredth is left out. A picture of noise 1 % thus differs from the converged
+/// one by about 1 % of its brightness: by more where that is costly to change, by less where it is cheap.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct NoiseTarget(f32);
 
