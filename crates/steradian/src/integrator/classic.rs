@@ -57,7 +57,7 @@ impl Integrator for ClassicShading<'_> {
                 first.surface =
                     Some(VisibleSurface { point: hit.point, seen_from: ray.o, albedo: albedo(&bsdf, wo) });
             }
-            let from = reference(&hit.point, &bsdf);
+            let from = reference(&hit.point, &bsdf, wo);
             return self.direct(scene, &from, &bsdf, wo, w, tally) + self.ambient(&bsdf, wo, w, sampler);
         }
     }

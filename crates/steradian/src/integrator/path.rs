@@ -101,7 +101,8 @@ impl Metering for PathTracer {
         sampler: &mut Sampler,
         tally: &mut Tally,
     ) -> Arriving {
-        let from = ReferencePoint { p: sensor.p, ng: Some(sensor.n), ns: Some(sensor.n), time: sensor.time };
+        let n = Some(sensor.n);
+        let from = ReferencePoint { p: sensor.p, ng: n, ns: n, lit_side: n, time: sensor.time };
         let sampled = light_at_sensor(scene, &from, sensor, w, sampler, tally);
         let local = cosine_hemisphere(sampler.next_2d());
         let density = PdfSolidAngle(cosine_hemisphere_pdf(local.z));
@@ -180,7 +181,7 @@ impl PathTracer {
                 break;
             }
             depth += 1;
-            let from = reference(&hit.point, bsdf);
+            let from = reference(&hit.point, bsdf, wo);
             if bsdf.lobes().is_continuous() {
                 let direct = sample_direct(scene, &from, bsdf, wo, w, sampler, tally);
                 found.collect(depth, throughput * direct);

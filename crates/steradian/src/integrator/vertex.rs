@@ -7,9 +7,11 @@ use crate::shape::ReferencePoint;
 use crate::spectrum::Sampled;
 use crate::units::Unitless;
 
-/// The surface as lights see it.
-pub(super) fn reference(point: &SurfacePoint, bsdf: &SurfaceBsdf) -> ReferencePoint {
-    ReferencePoint { p: point.p, ng: Some(point.ng), ns: Some(bsdf.n()), time: point.time }
+/// The surface as lights see it that scatters towards `wo`.
+pub(super) fn reference(point: &SurfacePoint, bsdf: &SurfaceBsdf, wo: Dir) -> ReferencePoint {
+    let n = bsdf.n();
+    let lit_side = (!bsdf.lobes().transmission).then(|| n.facing(*wo));
+    ReferencePoint { p: point.p, ng: Some(point.ng), ns: Some(n), lit_side, time: point.time }
 }
 
 /// Directional-hemispherical reflectance, B (2.14), from a fixed set of samples (fixed, so that a layer of it has no noise

@@ -28,7 +28,7 @@ fn grid(n: u32) -> impl Iterator<Item = Vec2> {
 
 fn facing(p: Vec3, n: Vec3) -> ReferencePoint {
     let n = Normal::new(n).unwrap();
-    ReferencePoint { p: BoundedPoint::exact(Point(p)), ng: Some(n), ns: Some(n), time: 0.0 }
+    ReferencePoint { p: BoundedPoint::exact(Point(p)), ng: Some(n), ns: Some(n), lit_side: None, time: 0.0 }
 }
 
 /// Irradiance at a point from `n` × `n` samples per primitive, first lane.

@@ -16,6 +16,8 @@ pub struct ReferencePoint {
     pub ng: Option<Normal>,
     /// Shading normal; when present, samples are weighted by the cosine to it where a warp exists.
     pub ns: Option<Normal>,
+    /// Normal of the only side from which light matters, that of an opaque surface's viewer; `None` where it is both.
+    pub lit_side: Option<Normal>,
     /// Time [s].
     pub time: f32,
 }
@@ -23,12 +25,13 @@ pub struct ReferencePoint {
 impl ReferencePoint {
     /// A bare point: in a medium, or on no surface that matters.
     pub fn free(p: Point, time: f32) -> Self {
-        Self { p: BoundedPoint::exact(p), ng: None, ns: None, time }
+        Self { p: BoundedPoint::exact(p), ng: None, ns: None, lit_side: None, time }
     }
 
     /// A point of a surface with both of its normals.
     pub fn from_surface(point: &SurfacePoint) -> Self {
-        Self { p: point.p, ng: Some(point.ng), ns: Some(point.shading.n), time: point.time }
+        let (ng, ns) = (Some(point.ng), Some(point.shading.n));
+        Self { p: point.p, ng, ns, lit_side: None, time: point.time }
     }
 
     /// Origin of a ray that leaves towards `w`, off the surface where there is one.
