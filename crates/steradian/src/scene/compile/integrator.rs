@@ -122,13 +122,13 @@ fn path(scene: &SceneDesc, risk: CausticRisk, diagnostics: &mut Diagnostics) -> 
     }
 }
 
-/// How lights are chosen: by power, unless the scene asks for something else.
+/// How lights are chosen: by what they may contribute at a point, unless the scene asks for something else.
 pub(super) fn selection(desc: &IntegratorDesc, diagnostics: &mut Diagnostics) -> Selection {
-    let (IntegratorKind::Path(p) | IntegratorKind::VolPath(p)) = desc.kind else { return Selection::Power };
+    let (IntegratorKind::Path(p) | IntegratorKind::VolPath(p)) = desc.kind else { return Selection::Position };
     match p.light_sampler {
-        None | Some(LightSamplerKind::Power) => Selection::Power,
+        Some(LightSamplerKind::Power) => Selection::Power,
         Some(LightSamplerKind::Uniform) => Selection::Uniform,
-        Some(LightSamplerKind::Bvh) => Selection::Position,
+        None | Some(LightSamplerKind::Bvh) => Selection::Position,
         Some(LightSamplerKind::Exhaustive) => {
             diagnostics.notice(desc.span, "light sampler \"exhaustive\" is rendered with \"bvh\"");
             Selection::Position

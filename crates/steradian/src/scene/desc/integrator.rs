@@ -72,7 +72,7 @@ pub struct PathDesc {
     pub max_depth: u32,
     /// Whether BSDFs are roughened after the first bounce (false).
     pub regularize: bool,
-    /// How lights are chosen; `None` where the scene does not say (by power; pbrt-v4: bvh).
+    /// How lights are chosen; `None` where the scene does not say (bvh).
     pub light_sampler: Option<LightSamplerKind>,
 }
 
