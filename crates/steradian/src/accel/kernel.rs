@@ -5,13 +5,13 @@
 
 use super::tree::{Child, LANES, Node, Packet, Tree, WIDTH};
 use crate::math::{Bounds3, Ray, Vec3, float};
-use crate::shape::watertight::Shear;
+use crate::shape::watertight::{self, Shear};
 
 /// A ray prepared for box tests by differences: (plane − o)/d.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxRay {
     origin: [f32; 3],
-    /// 1/d per axis; ±∞ where d is ±0.
+    /// 1/d per axis; ±∞ where d counts as zero.
     inverse: [f32; 3],
     /// Rows of [`Node::bounds`] in which the ray enters, per axis; it leaves in the neighbouring row.
     enter: [usize; 3],
@@ -93,12 +93,16 @@ impl Kernel for Portable {
         // A NaN passes every box, vacant ones included.
         let sound = ray.o.is_finite() && ray.d.is_finite() && ray.d != Vec3::ZERO;
         let negative = |axis: usize| usize::from(ray.d[axis].is_sign_negative());
-        let box_ray = BoxRay {
-            origin: ray.o.0.to_array(),
-            inverse: [1.0 / ray.d.x, 1.0 / ray.d.y, 1.0 / ray.d.z],
-            enter: [negative(0), 2 + negative(1), 4 + negative(2)],
-        };
-        sound.then(|| (box_ray, Shear::new(ray)))
+        let shear = Shear::new(ray);
+        let mut inverse = [1.0 / ray.d.x, 1.0 / ray.d.y, 1.0 / ray.d.z];
+        for (axis, factor) in shear.axes.into_iter().zip(shear.factors) {
+            if factor == 0.0 {
+                inverse[axis] = f32::INFINITY.copysign(ray.d[axis]);
+            }
+        }
+        let enter = [negative(0), 2 + negative(1), 4 + negative(2)];
+        let box_ray = BoxRay { origin: ray.o.0.to_array(), inverse, enter };
+        sound.then_some((box_ray, shear))
     }
 
     #[inline(always)]
@@ -168,7 +172,7 @@ pub(super) mod avx2 {
 
     use super::{
         Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, Ray, Shear, Tree,
-        float,
+        float, watertight,
     };
     use std::arch::x86_64::*;
 
@@ -200,8 +204,9 @@ pub(super) mod avx2 {
     /// Bytes of a row of [`Node::bounds`].
     const ROW: usize = 32;
 
-    /// Components of the direction below this part of the largest count as zero.
-    const STILL: f32 = 1e-18;
+    /// Components of the direction below this part of the largest count as zero; more than in the shear, as that is
+    /// rounded.
+    const STILL: f32 = 2.0 * watertight::STILL;
     /// Components below this count as zero, too: their inverses would be near the end of the range of floats.
     const LEAST: f32 = 1e-19;
     const MAX_OFFSET: f32 = 1e37;

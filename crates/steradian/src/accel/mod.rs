@@ -4,6 +4,8 @@
 //! of their own. A ray runs alone, with AVX2 where the processor has it and portable code elsewhere; both give the
 //! same hits.
 
+#[cfg(test)]
+mod adversarial;
 mod build;
 pub mod contract;
 mod kernel;

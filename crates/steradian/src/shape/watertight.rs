@@ -14,7 +14,7 @@ use glam::DVec3;
 pub struct Shear {
     /// Axes that become x, y and z; z is the one with the largest |d|.
     pub axes: [usize; 3],
-    /// Shear factors −d_x/d_z and −d_y/d_z, to relative accuracy 2 ε.
+    /// Shear factors −d_x/d_z and −d_y/d_z, to relative accuracy 2 ε; zero below [`STILL`].
     pub factors: [f32; 2],
     /// Origin in permuted axes.
     pub origin: [f32; 3],
@@ -23,6 +23,10 @@ pub struct Shear {
     /// Direction in permuted axes.
     d: [f32; 3],
 }
+
+/// Components of the direction below this part of the largest count as zero wherever it is decided what a ray passes:
+/// their products would leave the range of floats, and with it every bound on their rounding.
+pub const STILL: f32 = 1e-18;
 
 /// From which side a triangle is seen along +z of the sheared space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +64,8 @@ impl Shear {
         let axes = [NEXT[z + 1], NEXT[z + 2], z];
         let (d, origin) = (ray.d.to_array(), ray.o.0.to_array());
         let (d, origin) = (axes.map(|axis| d[axis]), axes.map(|axis| origin[axis]));
-        Self { axes, factors: [-d[0] * inverse_z, -d[1] * inverse_z], origin, inverse_z, d }
+        let factor = |d: f32| if (d * inverse_z).abs() < STILL { 0.0 } else { -d * inverse_z };
+        Self { axes, factors: [factor(d[0]), factor(d[1])], origin, inverse_z, d }
     }
 
     /// Projects a vertex along the ray. Every rounding here is part of the watertightness argument: whoever

@@ -1,0 +1,196 @@
+//! Inputs on which the two instruction sets could part: both must meet the same primitive at the same t, to the bit
+//! (0 ulps), as must the search through all primitives; and none may let a ray through a closed surface.
+
+use super::*;
+use crate::math::hash::Pcg32;
+use crate::math::{Point, Transform, Vec2, Vec3, warp};
+use crate::shape::{MeshData, Orientation, ShapeId, TriangleMesh};
+
+const OPAQUE: fn(&Candidate) -> bool = |_| true;
+
+fn mesh(triangles: &[[Vec3; 3]]) -> Shape {
+    let positions = triangles.iter().flatten().map(|p| Point(*p)).collect();
+    let indices = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let data = MeshData { positions, indices, ..MeshData::default() };
+    Shape::Mesh(TriangleMesh::new(data, &Transform::IDENTITY, Orientation::AsDefined).unwrap())
+}
+
+fn accels(shapes: &[Shape]) -> [Accel; 2] {
+    let accel = Accel::build(shapes, &Layout::of_world(shapes.len())).unwrap();
+    accel.validate().unwrap();
+    let portable = accel.clone().portable();
+    [accel, portable]
+}
+
+fn searched(shape: &Shape, ray: &Ray, t_max: f32) -> Option<Hit> {
+    let hits = (0..shape.prim_count()).filter_map(|prim| {
+        let h = shape.primitive(prim).intersect(ray, t_max).filter(|h| h.t < t_max)?;
+        Some(Hit { t: h.t, shape: ShapeId(0), prim, instance: None, u: h.u, v: h.v })
+    });
+    hits.reduce(|best, h| if h.precedes(&best) { h } else { best })
+}
+
+/// A number in (−1, 1), often one of a few: coordinates coincide, planes are shared.
+fn coordinate(rng: &mut Pcg32) -> f32 {
+    match rng.next_u32() % 8 {
+        0 => 0.0,
+        1 => -0.0,
+        2 => 0.5,
+        3 => -0.5,
+        _ => rng.next_f32() * 2.0 - 1.0,
+    }
+}
+
+fn place(rng: &mut Pcg32) -> Vec3 {
+    Vec3::new(coordinate(rng), coordinate(rng), coordinate(rng))
+}
+
+/// Triangles that share corners and planes, and such without area: points, needles, doubled corners.
+fn triangles(rng: &mut Pcg32, count: usize) -> Vec<[Vec3; 3]> {
+    let corners: Vec<Vec3> = (0..count / 2).map(|_| place(rng)).collect();
+    (0..count)
+        .map(|i| {
+            let mut pick = || corners[rng.next_u32() as usize % corners.len()];
+            let (a, b, c) = (pick(), pick(), pick());
+            match i % 12 {
+                0 => [a; 3],
+                1 => [a, b, b],
+                2 => [a, b, a * 0.5 + b * 0.5],
+                3 => [a, a + (b - a) * 1e-6, c],
+                4 => [Vec3::new(0.5, a.y, a.z), Vec3::new(0.5, b.y, b.z), Vec3::new(0.5, c.y, c.z)],
+                5 => [a, a + (b - a) * 1e-3, a + (c - a) * 1e-3],
+                _ => [a, b, c],
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn both_paths_meet_the_same_primitive_at_the_same_place_on_adversarial_input() {
+    let mut rng = Pcg32::new(21, 4);
+    let mut met = 0;
+    for scale in [1e-18_f32, 1e-9, 1.0, 1e9, 1e18] {
+        let plain = triangles(&mut rng, 150);
+        let shape = mesh(&plain.iter().map(|t| t.map(|p| p * scale)).collect::<Vec<_>>());
+        let shapes = [shape];
+        let [accel, portable] = accels(&shapes);
+        for i in 0..2500_u32 {
+            let [a, b, c] = plain[rng.next_u32() as usize % plain.len()];
+            // At corners, through edges, within planes, along axes, and any way.
+            let (o, to) = match i % 6 {
+                0 => (place(&mut rng) * 2.0, a),
+                1 => (place(&mut rng) * 2.0, a + (b - a) * rng.next_f32()),
+                2 => (a + (a - b), b + (c - b) * 0.3),
+                3 => (a * 0.3 + b * 0.3 + c * 0.4, place(&mut rng)),
+                4 => {
+                    let mut o = a;
+                    o[i as usize % 3] = 2.0;
+                    (o, a)
+                }
+                _ => (place(&mut rng) * 2.0, place(&mut rng)),
+            };
+            let mut d = to - o;
+            // Components that are nothing to the others, as far down as floats go.
+            match i % 7 {
+                0 => d[i as usize / 7 % 3] = 0.0,
+                1 => d[i as usize / 7 % 3] = -0.0,
+                2 => d[i as usize / 7 % 3] *= 1e-20,
+                3 => d[i as usize / 7 % 3] = 1e-42,
+                _ => {}
+            }
+            let length = [1.0, scale, 1e-12, 1e12][i as usize / 16 % 4];
+            let ray = Ray { o: Point(o * scale), d: d * length, time: 0.0 };
+            if ray.d == Vec3::ZERO {
+                continue;
+            }
+            let t_max = if i % 5 == 0 { scale / length } else { f32::INFINITY };
+            let expected = searched(&shapes[0], &ray, t_max);
+            met += u32::from(expected.is_some());
+            for accel in [&accel, &portable] {
+                assert_eq!(accel.intersect(&ray, t_max, &OPAQUE), expected, "scale {scale}: {ray:?}");
+                assert_eq!(
+                    accel.occluded(&ray, t_max, &OPAQUE),
+                    expected.is_some(),
+                    "scale {scale}: {ray:?}"
+                );
+            }
+        }
+    }
+    assert!(met > 4000, "{met}");
+}
+
+#[test]
+fn rays_that_are_none_meet_nothing_and_end() {
+    let mut rng = Pcg32::new(5, 6);
+    let [accel, portable] = accels(&[mesh(&triangles(&mut rng, 200))]);
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+    for accel in [&accel, &portable] {
+        for x in odd {
+            for axis in 0..3 {
+                let mut ray = Ray { o: Point::new(0.1, 0.2, 3.0), d: -Vec3::Z, time: 0.0 };
+                ray.o.0[axis] = x;
+                assert_eq!(accel.intersect(&ray, f32::INFINITY, &OPAQUE), None, "{ray:?}");
+                let mut ray = Ray { o: Point::new(0.1, 0.2, 3.0), d: -Vec3::Z, time: 0.0 };
+                ray.d[axis] = x;
+                assert_eq!(accel.intersect(&ray, f32::INFINITY, &OPAQUE), None, "{ray:?}");
+                assert!(!accel.occluded(&ray, f32::INFINITY, &OPAQUE));
+            }
+        }
+        let still = Ray { o: Point::ORIGIN, d: Vec3::ZERO, time: 0.0 };
+        assert_eq!(accel.intersect(&still, f32::INFINITY, &OPAQUE), None);
+        let ray = Ray { o: Point::new(0.1, 0.2, 3.0), d: -Vec3::Z, time: 0.0 };
+        for t_max in [0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
+            assert_eq!(accel.intersect(&ray, t_max, &OPAQUE), None, "{t_max}");
+        }
+        // The farthest places that a ray can come from.
+        for o in [Vec3::splat(3e38), Vec3::new(0.0, 0.0, -3e38)] {
+            let ray = Ray { o: Point(o), d: Vec3::new(1e-30, 1e-42, 1.0), time: 0.0 };
+            assert_eq!(accel.intersect(&ray, 1.0, &OPAQUE), None);
+        }
+    }
+}
+
+/// A ball of triangles whose corners are shared exactly.
+fn ball(columns: u32, scale: f32) -> Vec<[Vec3; 3]> {
+    use std::f32::consts::{PI, TAU};
+    let rows = columns / 2;
+    let corner = |i: u32, j: u32| {
+        let (phi, theta) = (TAU * (i % columns) as f32 / columns as f32, PI * j as f32 / rows as f32);
+        // At the poles all columns meet in one point.
+        let sin = if j % rows == 0 { 0.0 } else { theta.sin() };
+        Vec3::new(sin * phi.cos(), sin * phi.sin(), theta.cos()) * scale
+    };
+    let mut faces = Vec::new();
+    for j in 0..rows {
+        for i in 0..columns {
+            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)];
+            faces.extend([[a, b, c], [b, d, c]]);
+        }
+    }
+    faces
+}
+
+#[test]
+fn no_ray_escapes_from_a_ball_at_the_ends_of_the_range_of_floats() {
+    let mut rng = Pcg32::new(3, 8);
+    for scale in [1e-18_f32, 1e18] {
+        let faces = ball(24, scale);
+        let both = accels(&[mesh(&faces)]);
+        for i in 0..3000_u32 {
+            let [a, b, _] = faces[rng.next_u32() as usize % faces.len()];
+            let inside = warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32())) * (0.6 * scale);
+            let (o, d) = match i % 4 {
+                0 => (inside, a - inside),
+                1 => (inside, a + (b - a) * rng.next_f32() - inside),
+                // Parallel to an axis through a corner: two components of the direction are zero.
+                2 => (Vec3::new(a.x, a.y, 0.0) * 0.99, Vec3::new(0.0, -0.0, 1.0)),
+                _ => (Vec3::new(0.0, a.y, a.z) * 0.99, Vec3::new(-1.0, 1e-25, 0.0)),
+            };
+            let ray = Ray { o: Point(o), d, time: 0.0 };
+            for accel in &both {
+                assert!(accel.occluded(&ray, f32::INFINITY, &OPAQUE), "scale {scale}: {ray:?}");
+                assert!(accel.intersect(&ray, f32::INFINITY, &OPAQUE).is_some());
+            }
+        }
+    }
+}
