@@ -21,8 +21,9 @@ pub use structure::Accel;
 pub use validate::{AccelStats, Violation};
 
 use crate::math::{Bounds3, Ray, SurfacePoint};
-use crate::shape::Shape;
+use crate::shape::{Shape, ShapeId};
 use kernel::KernelChoice;
+use rayon::prelude::*;
 use structure::Placed;
 use tree::Owner;
 
@@ -45,23 +46,20 @@ impl Accel {
         if found != 0 && found != shapes.len() {
             return Err(AccelError::CoverageLength { found, expected: shapes.len() });
         }
-        let (mut entries, mut boxes) = (Vec::new(), Vec::new());
-        let mut objects = Vec::with_capacity(layout.objects.len());
-        for ids in &layout.objects {
-            entries.clear();
-            boxes.clear();
-            build::gather(shapes, ids, &mut entries, &mut boxes)?;
-            objects.push(build::build(shapes, layout, &entries, &boxes)?);
-        }
-        entries.clear();
-        boxes.clear();
-        build::gather(shapes, &layout.world, &mut entries, &mut boxes)?;
+        let build = |ids: &[ShapeId]| build::build(shapes, layout, ids, &[]);
+        // The large ones one after the other: each of them keeps all threads busy, and two would take twice the memory.
+        let is_large = |ids: &[ShapeId]| build::is_large(shapes, ids);
+        let small: Vec<_> =
+            layout.objects.par_iter().map(|ids| (!is_large(ids)).then(|| build(ids))).collect();
+        let objects =
+            small.into_iter().zip(&layout.objects).map(|(tree, ids)| tree.unwrap_or_else(|| build(ids)));
         let mut accel = Self {
             world: tree::Tree::default(),
-            objects,
+            objects: objects.collect::<Result<_, _>>()?,
             instances: layout.instances.iter().map(Placed::new).collect(),
             kernel: KernelChoice::detect(),
         };
+        let mut placed = Vec::with_capacity(layout.instances.len());
         for (i, instance) in layout.instances.iter().enumerate() {
             let (object, count) = (instance.object.0, accel.objects.len());
             if object as usize >= count {
@@ -69,14 +67,9 @@ impl Accel {
             }
             let id = InstanceId(i as u32);
             // An object without primitives places nothing.
-            let Some(b) = accel.instance_bounds(id) else { continue };
-            if !(b.min.is_finite() && b.max.is_finite()) {
-                return Err(AccelError::UnboundedInstance { instance: i });
-            }
-            entries.push(build::Entry::Instance(id));
-            boxes.push(b);
+            placed.extend(accel.instance_bounds(id).map(|b| (id, b)));
         }
-        accel.world = build::build(shapes, layout, &entries, &boxes)?;
+        accel.world = build::build(shapes, layout, &layout.world, &placed)?;
         Ok(accel)
     }
 

@@ -212,6 +212,8 @@ pub(super) struct Tree {
     pub(super) items: Vec<Item>,
     pub(super) depth: u32,
     pub(super) bounds: Option<Bounds3>,
+    /// Held at most while it was built, itself included.
+    pub(super) peak_bytes: usize,
 }
 
 impl Tree {

@@ -1,0 +1,76 @@
+//! From primitives to the 8-wide tree.
+//!
+//! In the order in which it happens: [`gather`] collects boxes, [`divide`] sorts them into a binary tree from the top down
+//! (with [`binning`] deciding where, and [`branch`] holding what one thread makes), [`trunk`] improves its upper part,
+//! [`collapse`] makes wide nodes of it as [`gathering`] chooses, and [`pack`] lays out the result.
+
+mod binning;
+mod branch;
+mod collapse;
+mod divide;
+mod gather;
+mod gathering;
+mod pack;
+mod reference;
+mod segments;
+mod trunk;
+
+use super::contract::{AccelError, InstanceId, Layout};
+use super::tree::{Node, Tree};
+use crate::math::Bounds3;
+use crate::shape::{Shape, ShapeId};
+use rayon::prelude::*;
+use reference::Reference;
+use trunk::Trunk;
+
+/// Parts of a tree that are made by one thread each, at least, where there are enough primitives for that.
+const BRANCHES: usize = 1024;
+
+/// Primitives of a branch at most, for whatever number of them in all: what fits a core's cache.
+const LARGEST_BRANCH: usize = 4096;
+
+/// Primitives of a branch at most, for however few of them in all: moving fewer is not worth it.
+const SMALLEST_BRANCH: usize = 32;
+
+/// Whether there are enough primitives to divide by all threads together.
+pub(super) fn is_large(shapes: &[Shape], ids: &[ShapeId]) -> bool {
+    let count = |id: &ShapeId| shapes.get(id.0 as usize).map_or(0, |s| s.prim_count() as usize);
+    ids.iter().map(count).sum::<usize>() > divide::SHARED
+}
+
+/// Builds the tree over all primitives of the shapes `ids` and over `instances` with their boxes.
+pub(super) fn build(
+    shapes: &[Shape],
+    layout: &Layout,
+    ids: &[ShapeId],
+    instances: &[(InstanceId, Bounds3)],
+) -> Result<Tree, AccelError> {
+    let mut references = gather::gather(shapes, ids, instances)?;
+    let count = references.len();
+    if count == 0 {
+        return Ok(Tree { nodes: vec![Node::EMPTY], ..Tree::default() });
+    }
+    let grain = (count / BRANCHES).clamp(SMALLEST_BRANCH, LARGEST_BRANCH);
+    let mut spare = Vec::new();
+    references.par_iter().map(|_| Reference::ZERO).collect_into_vec(&mut spare);
+    let limb = divide::divide(&mut references, &mut spare, grain);
+    drop(spare);
+    let trunk = Trunk::new(limb);
+    let bounds = trunk.reach_of(Trunk::ROOT).bounds();
+    let branches: usize = trunk.branches.iter().map(branch::Branch::heap_bytes).sum();
+    let collapsed = collapse::collapse(&trunk, &references);
+    drop(trunk);
+    let chunks: usize = collapsed.chunks.iter().map(collapse::Chunk::heap_bytes).sum();
+    let nodes: usize = collapsed.chunks.iter().map(|c| size_of_val(&c.nodes[..])).sum();
+    let mut tree = pack::pack(shapes, layout, collapsed, references)?;
+    tree.bounds = Some(bounds);
+    let references = count * size_of::<Reference>();
+    // What is held at once while dividing, collapsing, and at the end of packing, when the chunks' nodes are gone.
+    let moments = [
+        2 * references + branches,
+        references + branches + chunks,
+        references + chunks - nodes + tree.heap_bytes(),
+    ];
+    tree.peak_bytes = moments.into_iter().max().unwrap_or(0);
+    Ok(tree)
+}

@@ -1,0 +1,166 @@
+//! What the builder sorts: a box and whose it is, in 32 bytes.
+
+use super::super::contract::InstanceId;
+use super::super::tree::LANES;
+use crate::math::{Bounds3, Point};
+use crate::shape::ShapeId;
+use glam::Vec4;
+
+/// A box whose corners fill a register each; the fourth components mean nothing here.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Box4 {
+    pub(super) lo: Vec4,
+    pub(super) hi: Vec4,
+}
+
+impl Box4 {
+    pub(super) const EMPTY: Self = Self { lo: Vec4::INFINITY, hi: Vec4::NEG_INFINITY };
+
+    #[inline(always)]
+    pub(super) fn union(self, other: Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    /// Half the surface area; infinite or NaN where it is beyond the range of floats, which loses every comparison.
+    #[inline(always)]
+    pub(super) fn half_area(self) -> f32 {
+        let d = self.hi - self.lo;
+        d.x * (d.y + d.z) + d.y * d.z
+    }
+
+    pub(super) fn bounds(self) -> Bounds3 {
+        Bounds3 { min: Point(self.lo.truncate()), max: Point(self.hi.truncate()) }
+    }
+}
+
+/// One thing that a tree is built over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    Triangle { shape: ShapeId, prim: u32 },
+    Other { shape: ShapeId, prim: u32 },
+    Instance(InstanceId),
+}
+
+/// A subject with its box. Its numbers lie in the fourth components, as bits of floats around two: they go through the
+/// arithmetic of the box and must neither be NaN nor so small that processors slow down.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Reference {
+    pub(super) lo: Vec4,
+    pub(super) hi: Vec4,
+}
+
+impl Reference {
+    pub(super) const ZERO: Self = Self { lo: Vec4::ZERO, hi: Vec4::ZERO };
+    const NORMAL: u32 = 1 << 30;
+    const OTHER: u32 = 1 << 29;
+    const INSTANCE: u32 = Self::OTHER - 1;
+    /// Shapes that can be told apart.
+    pub(super) const MAX_SHAPES: usize = Self::INSTANCE as usize;
+
+    pub(super) fn new(b: &Bounds3, subject: Subject) -> Self {
+        let (first, second) = match subject {
+            Subject::Triangle { shape, prim } => (shape.0, prim),
+            Subject::Other { shape, prim } => (Self::OTHER | shape.0, prim),
+            Subject::Instance(id) => (Self::OTHER | Self::INSTANCE, id.0),
+        };
+        let word = |bits: u32| f32::from_bits(Self::NORMAL | bits);
+        // Adding zero makes −0 positive: the smaller of the two zeros would depend on the order of comparison.
+        Self { lo: (b.min.0 + 0.0).extend(word(first)), hi: (b.max.0 + 0.0).extend(word(second)) }
+    }
+
+    pub(super) fn subject(&self) -> Subject {
+        let word = |x: f32| x.to_bits() & !Self::NORMAL;
+        let (first, second) = (word(self.lo.w), word(self.hi.w));
+        let shape = ShapeId(first & !Self::OTHER);
+        match first & Self::OTHER != 0 {
+            false => Subject::Triangle { shape, prim: second },
+            true if shape.0 == Self::INSTANCE => Subject::Instance(InstanceId(second)),
+            true => Subject::Other { shape, prim: second },
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn as_box(&self) -> Box4 {
+        Box4 { lo: self.lo, hi: self.hi }
+    }
+
+    /// Twice the centre of the box; infinite where that is beyond the range of floats.
+    #[inline(always)]
+    pub(super) fn center(&self) -> Vec4 {
+        self.lo + self.hi
+    }
+
+    #[inline(always)]
+    pub(super) fn tally(&self) -> Tally {
+        Tally(1 | u64::from(self.lo.w.to_bits() & Self::OTHER) << (32 - Self::OTHER.trailing_zeros()))
+    }
+}
+
+/// Number of references, and how many of them are no triangles in the upper half.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Tally(u64);
+
+impl Tally {
+    pub(super) const ZERO: Self = Self(0);
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, other: Self) {
+        self.0 += other.0;
+    }
+
+    #[inline(always)]
+    pub(super) fn minus(self, part: Self) -> Self {
+        Self(self.0 - part.0)
+    }
+
+    pub(super) fn of(references: &[Reference]) -> Self {
+        let mut sum = Self::ZERO;
+        references.iter().for_each(|r| sum.add(r.tally()));
+        sum
+    }
+
+    #[inline(always)]
+    pub(super) fn count(self) -> usize {
+        self.0 as u32 as usize
+    }
+
+    /// What testing all of them costs, in tests of a packet of triangles: anything else costs a packet of its own.
+    #[inline(always)]
+    pub(super) fn packets(self) -> u32 {
+        self.weight().div_ceil(LANES as u32)
+    }
+
+    /// In triangles.
+    #[inline(always)]
+    pub(super) fn weight(self) -> u32 {
+        self.0 as u32 + (LANES as u32 - 1) * (self.0 >> 32) as u32
+    }
+}
+
+/// How far some references reach, and their centres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) boxes: Box4,
+    /// Of [`Reference::center`].
+    pub(super) centers: Box4,
+}
+
+impl Extent {
+    pub(super) const EMPTY: Self = Self { boxes: Box4::EMPTY, centers: Box4::EMPTY };
+
+    #[inline]
+    pub(super) fn of(references: &[Reference]) -> Self {
+        let mut e = Self::EMPTY;
+        for r in references {
+            let c = r.center();
+            e.boxes = e.boxes.union(r.as_box());
+            e.centers = e.centers.union(Box4 { lo: c, hi: c });
+        }
+        e
+    }
+
+    pub(super) fn union(self, other: Self) -> Self {
+        Self { boxes: self.boxes.union(other.boxes), centers: self.centers.union(other.centers) }
+    }
+}
