@@ -6,6 +6,7 @@ use crate::load::{self, Verbosity};
 use crate::output::{note, print};
 use std::fmt::Write as _;
 use steradian::scene::{Disk, IntegratorSettings, RenderJob, Severity};
+use steradian::shape::Shape;
 
 /// Describes the compiled scene; what is unsupported or doubtful is part of the description.
 pub(crate) fn info(arguments: &args::Inspect) -> Result<(), Failure> {
@@ -65,8 +66,22 @@ fn describe(job: &RenderJob) -> String {
         "hierarchy",
         format!("{} nodes, {} levels, {:?}", stats.nodes, stats.depth, scene.accel().instructions()),
     );
-    line("memory, hierarchy", mebibytes(stats.heap_bytes));
-    line("memory, geometry", mebibytes(scene.shapes().iter().map(steradian::shape::Shape::heap_bytes).sum()));
+    let parts =
+        [stats.node_bytes, stats.packet_bytes, stats.heap_bytes - stats.node_bytes - stats.packet_bytes];
+    let [nodes, triangles, other] = parts.map(mebibytes);
+    let whole = mebibytes(stats.heap_bytes);
+    line("memory, hierarchy", format!("{whole}: nodes {nodes}, triangles {triangles}, other {other}"));
+    let geometry: usize = scene.shapes().iter().map(Shape::heap_bytes).sum();
+    line("memory, geometry", mebibytes(geometry));
+    if stats.triangles > 0 {
+        let bare = geometry - scene.shapes().iter().map(attribute_bytes).sum::<usize>();
+        let each = |bytes: usize| bytes as f64 / stats.triangles as f64;
+        let (resident, peak) = (each(bare + stats.heap_bytes), each(bare + stats.peak_bytes));
+        line(
+            "memory per triangle",
+            format!("{resident:.1} B, while building at most {peak:.1} B (without normals and uv)"),
+        );
+    }
     line("memory, pictures", mebibytes(scene.textures().image_bytes()));
     let (_, radius) = b.bounding_sphere();
     line("lights", scene.lights().len().to_string());
@@ -85,6 +100,14 @@ fn describe(job: &RenderJob) -> String {
     }
     line("light in total", format!("{:.4e} W  {:.4e} lm (360–830 nm)", total.0, total.1));
     out.trim_end().to_owned()
+}
+
+/// Bytes of a mesh that are neither vertices nor indices.
+fn attribute_bytes(shape: &Shape) -> usize {
+    match shape {
+        Shape::Mesh(mesh) => mesh.attribute_bytes(),
+        _ => 0,
+    }
 }
 
 /// Lights that are listed one by one.

@@ -1,7 +1,8 @@
 //! Checks of a built structure, for tests and for reports.
 
+use super::build;
 use super::structure::Accel;
-use super::tree::{Child, Item, Owner, Packet, Target, Tree};
+use super::tree::{Child, Item, LANES, Owner, Packet, Target, Tree};
 use crate::math::Bounds3;
 
 /// What a structure consists of.
@@ -21,6 +22,13 @@ pub struct AccelStats {
     pub depth: u32,
     /// Bytes on the heap, the structure's own copies of the geometry included.
     pub heap_bytes: usize,
+    /// Of these, in inner nodes.
+    pub node_bytes: usize,
+    /// Of these, in packets of triangles.
+    pub packet_bytes: usize,
+    /// Bytes that were held at once while building, itself included and the shapes not: a bound, from the sizes of
+    /// what the builder keeps at each stage.
+    pub peak_bytes: usize,
 }
 
 /// A broken invariant of the structure.
@@ -70,8 +78,21 @@ impl Accel {
             }
             total.depth = total.depth.max(tree.depth);
             total.heap_bytes += tree.heap_bytes();
+            total.node_bytes += size_of_val(&tree.nodes[..]);
+            total.packet_bytes += size_of_val(&tree.packets[..]);
         }
+        total.peak_bytes = total.heap_bytes + self.building_bytes();
         total
+    }
+
+    /// Bytes beyond the finished trees that were held at once: the world comes last, large objects are built one after
+    /// the other, small ones perhaps all together.
+    fn building_bytes(&self) -> usize {
+        let passing = |tree: &Tree| tree.peak_bytes.saturating_sub(tree.heap_bytes());
+        let (large, small): (Vec<&Tree>, Vec<&Tree>) =
+            self.objects.iter().partition(|tree| tree.packets.len() > build::TOGETHER / LANES);
+        let alone = large.into_iter().chain([&self.world]).map(passing).max().unwrap_or(0);
+        alone.max(small.into_iter().map(passing).sum())
     }
 
     /// Checks that every element is referred to exactly once and that boxes contain what is below them.

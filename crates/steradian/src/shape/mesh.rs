@@ -45,7 +45,7 @@ impl TriangleMesh {
         render_from_object: &Transform,
         orientation: Orientation,
     ) -> Result<Self, ShapeError> {
-        let MeshData { indices, mut positions, mut normals, mut tangents, uvs, face_indices } = data;
+        let MeshData { mut indices, mut positions, mut normals, mut tangents, mut uvs, face_indices } = data;
         let count = positions.len();
         validate::check_length("normals", normals.len(), count)?;
         validate::check_length("tangents", tangents.len(), count)?;
@@ -62,6 +62,11 @@ impl TriangleMesh {
         }
         validate::check_uvs(&uvs)?;
         let flip = orientation.flips_normals(render_from_object);
+        // Readers grow their lists and leave up to half of the room unused.
+        indices.shrink_to_fit();
+        positions.shrink_to_fit();
+        normals.shrink_to_fit();
+        uvs.shrink_to_fit();
         Ok(Self { indices, positions, normals, tangents, uvs, face_indices, flip })
     }
 
@@ -85,7 +90,13 @@ impl TriangleMesh {
             + size_of_val(&self.face_indices[..])
     }
 
+    /// Of [`TriangleMesh::heap_bytes`], what is neither a vertex position nor an index.
+    pub fn attribute_bytes(&self) -> usize {
+        self.heap_bytes() - size_of_val(&self.indices[..]) - size_of_val(&self.positions[..])
+    }
+
     /// The corners of a triangle.
+    #[inline]
     pub fn corners(&self, triangle: u32) -> [Point; 3] {
         self.gather(&self.positions, triangle)
     }
@@ -101,8 +112,10 @@ impl TriangleMesh {
         (0.5 * cross(self.corners(triangle)).length()) as f32
     }
 
+    #[inline]
     fn gather<T: Copy>(&self, values: &[T], triangle: u32) -> [T; 3] {
-        self.indices[triangle as usize].map(|i| values[i as usize])
+        let [a, b, c] = self.indices[triangle as usize];
+        [values[a as usize], values[b as usize], values[c as usize]]
     }
 
     fn corner_uvs(&self, triangle: u32) -> [Vec2; 3] {

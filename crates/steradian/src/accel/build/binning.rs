@@ -64,7 +64,7 @@ impl Mapping {
         (smaller >> 22).min(MAX_BINS as u32 - 1) as usize
     }
 
-    /// Whether a reference lies behind a division; exactly what the bins have counted.
+    /// Whether a reference lies behind a division: exactly as the bins have counted it.
     #[inline(always)]
     pub(super) fn is_behind(&self, r: &Reference, s: &Division) -> bool {
         let bin = match (s.key, self.largest) {
@@ -85,85 +85,70 @@ pub(super) struct Division {
     key: Key,
     /// First bin of the second half.
     bin: usize,
-    /// References in the first half.
-    pub(super) before: Tally,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Bin {
-    reach: Box4,
-    tally: Tally,
-}
-
-const EMPTY: Bin = Bin { reach: Box4::EMPTY, tally: Tally::ZERO };
-
-impl Bin {
-    #[inline(always)]
-    fn add(&mut self, r: &Reference) {
-        self.reach = self.reach.union(r.as_box());
-        self.tally.add(r.tally());
-    }
-
-    #[inline(always)]
-    fn merge(&mut self, other: &Self) {
-        self.reach = self.reach.union(other.reach);
-        self.tally.add(other.tally);
-    }
-
-    #[inline(always)]
-    fn cost(&self) -> f32 {
-        self.reach.half_area() * self.tally.packets() as f32
-    }
 }
 
 /// How many references there are in each bin, and how far they reach. Smallest, largest and sum do not depend on the
 /// order of adding, so that any division of the work gives the same bins.
 #[derive(Clone, Debug)]
-pub(super) struct Bins([[Bin; MAX_BINS]; KEYS.len()]);
+pub(super) struct Bins {
+    boxes: [[Box4; MAX_BINS]; KEYS.len()],
+    tallies: [[Tally; MAX_BINS]; KEYS.len()],
+}
+
+/// References that stay in the nearest cache between binning by centre and by size.
+const BLOCK: usize = 512;
+
+#[inline(always)]
+fn cost(reach: Box4, tally: Tally) -> f32 {
+    reach.half_area() * tally.packets() as f32
+}
 
 impl Bins {
     pub(super) fn new() -> Self {
-        Self([[EMPTY; MAX_BINS]; KEYS.len()])
+        Self { boxes: [[Box4::EMPTY; MAX_BINS]; KEYS.len()], tallies: [[Tally::ZERO; MAX_BINS]; KEYS.len()] }
     }
 
     /// Empties the bins that `mapping` uses.
     #[inline(always)]
     pub(super) fn clear(&mut self, mapping: &Mapping) {
-        let [x, y, z, sizes] = &mut self.0;
-        for bins in [x, y, z] {
-            bins[..mapping.bins].fill(EMPTY);
+        for axis in 0..3 {
+            self.boxes[axis][..mapping.bins].fill(Box4::EMPTY);
+            self.tallies[axis][..mapping.bins].fill(Tally::ZERO);
         }
         if mapping.largest.is_some() {
-            sizes.fill(EMPTY);
+            self.boxes[3].fill(Box4::EMPTY);
+            self.tallies[3].fill(Tally::ZERO);
+        }
+    }
+
+    /// Adds every `step`-th reference.
+    #[inline(always)]
+    pub(super) fn add(&mut self, references: &[Reference], step: usize, mapping: &Mapping) {
+        for block in references.chunks(BLOCK * step) {
+            for r in block.iter().step_by(step) {
+                for (axis, bin) in mapping.by_center(r).into_iter().enumerate() {
+                    self.count(axis, bin, r);
+                }
+            }
+            if let Some(largest) = mapping.largest {
+                block.iter().step_by(step).for_each(|r| self.count(3, Mapping::by_size(largest, r), r));
+            }
         }
     }
 
     #[inline(always)]
-    pub(super) fn add(&mut self, references: &[Reference], mapping: &Mapping) {
-        for r in references {
-            let [x, y, z] = mapping.by_center(r);
-            self.0[0][x].add(r);
-            self.0[1][y].add(r);
-            self.0[2][z].add(r);
-        }
-        if let Some(largest) = mapping.largest {
-            references.iter().for_each(|r| self.0[3][Mapping::by_size(largest, r)].add(r));
-        }
+    fn count(&mut self, key: usize, bin: usize, r: &Reference) {
+        self.boxes[key][bin] = self.boxes[key][bin].union(r.as_box());
+        self.tallies[key][bin].add(r.tally());
     }
 
     pub(super) fn merge(&mut self, other: &Self) {
-        for (a, b) in self.0.as_flattened_mut().iter_mut().zip(other.0.as_flattened()) {
-            a.merge(b);
+        for (a, b) in self.boxes.as_flattened_mut().iter_mut().zip(other.boxes.as_flattened()) {
+            *a = a.union(*b);
         }
-    }
-
-    /// References before a division.
-    pub(super) fn before(&self, s: &Division) -> Tally {
-        let mut sum = Tally::ZERO;
-        if let Some(i) = KEYS.iter().position(|k| *k == s.key) {
-            self.0[i][..s.bin].iter().for_each(|b| sum.add(b.tally));
+        for (a, b) in self.tallies.as_flattened_mut().iter_mut().zip(other.tallies.as_flattened()) {
+            a.add(*b);
         }
-        sum
     }
 
     /// The cheapest division; `None` where nothing can be told apart or no cost is finite.
@@ -171,28 +156,30 @@ impl Bins {
     pub(super) fn cheapest(&self, mapping: &Mapping) -> Option<Division> {
         let mut best = None;
         let mut least = f32::INFINITY;
-        for (bins, key) in self.0.iter().zip(KEYS) {
+        for (i, key) in KEYS.into_iter().enumerate() {
             let count = match key {
                 Key::Center(axis) if mapping.scale[axis] != 0.0 => mapping.bins,
                 Key::Size if mapping.largest.is_some() => MAX_BINS,
                 _ => continue,
             };
-            let bins = &bins[..count];
+            let (boxes, tallies) = (&self.boxes[i][..count], &self.tallies[i][..count]);
             let mut behind = [f32::INFINITY; MAX_BINS];
-            let mut sum = EMPTY;
-            for i in (1..count).rev() {
-                sum.merge(&bins[i]);
-                if sum.tally != Tally::ZERO {
-                    behind[i] = sum.cost();
+            let (mut reach, mut tally) = (Box4::EMPTY, Tally::ZERO);
+            for bin in (1..count).rev() {
+                reach = reach.union(boxes[bin]);
+                tally.add(tallies[bin]);
+                if tally != Tally::ZERO {
+                    behind[bin] = cost(reach, tally);
                 }
             }
-            let mut sum = EMPTY;
-            for i in 1..count {
-                sum.merge(&bins[i - 1]);
-                let cost = sum.cost() + behind[i];
-                if cost < least && sum.tally != Tally::ZERO {
+            let (mut reach, mut tally) = (Box4::EMPTY, Tally::ZERO);
+            for bin in 1..count {
+                reach = reach.union(boxes[bin - 1]);
+                tally.add(tallies[bin - 1]);
+                let cost = cost(reach, tally) + behind[bin];
+                if cost < least && tally != Tally::ZERO {
                     least = cost;
-                    best = Some(Division { key, bin: i, before: sum.tally });
+                    best = Some(Division { key, bin });
                 }
             }
         }

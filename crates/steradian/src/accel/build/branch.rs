@@ -84,7 +84,7 @@ pub(super) struct Grower<'a> {
 impl Grower<'_> {
     /// The tree below `part`.
     pub(super) fn grow(part: Part<'_>, bins: &mut Bins) -> Branch {
-        let mut grower = Grower { twigs: Vec::with_capacity(part.references.len()), bins, depth: 0 };
+        let mut grower = Grower { twigs: Vec::with_capacity(part.references.len() * 3 / 4), bins, depth: 0 };
         let costs = grower.node(part, 0);
         Branch { twigs: grower.twigs.into_boxed_slice(), costs, depth: grower.depth }
     }

@@ -59,12 +59,10 @@ pub(super) fn collapse(trunk: &Trunk, references: &[Reference]) -> Collapsed {
     let (mut top, mut joints, mut tasks) = (Chunk::default(), Vec::new(), Vec::new());
     top.nodes.push(Node::EMPTY);
     let mut work = vec![(Trunk::ROOT, 0_usize, 1_u32)];
-    let mut kids = Vec::new();
     while let Some((place, index, depth)) = work.pop() {
         top.depth = top.depth.max(depth);
-        trunk.wide_children(place, &mut kids);
         let mut node = Node::EMPTY;
-        for (slot, &kid) in kids.iter().enumerate() {
+        for (slot, kid) in trunk.wide_children(place).iter().enumerate() {
             let kid = trunk.settled(kid);
             let child = maker.leaf(kid, &mut top).unwrap_or_else(|| {
                 if let Place::Knot(_) = kid {
@@ -106,10 +104,8 @@ impl Maker<'_> {
         let index = chunk.nodes.len();
         chunk.nodes.push(Node::EMPTY);
         chunk.depth = chunk.depth.max(depth);
-        let mut kids = Vec::with_capacity(8);
-        self.trunk.wide_children(place, &mut kids);
         let mut node = Node::EMPTY;
-        for (slot, &kid) in kids.iter().enumerate() {
+        for (slot, kid) in self.trunk.wide_children(place).iter().enumerate() {
             let child = self.leaf(kid, chunk).unwrap_or_else(|| self.inner(kid, depth + 1, chunk));
             node.set(slot, &self.trunk.reach_of(kid).bounds(), child);
         }

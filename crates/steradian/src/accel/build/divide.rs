@@ -5,12 +5,19 @@
 
 use super::binning::{Bins, Division, Mapping};
 use super::branch::{Branch, Grower};
-use super::reference::{Extent, Reference, Tally};
+use super::reference::{Extent, Reference};
 use crate::accel::tree::{LANES, MAX_DEPTH};
 use rayon::prelude::*;
 
 /// References that are divided by several threads together; below, each part is the work of one.
 pub(super) const SHARED: usize = 1 << 17;
+
+/// References that are enough to find a good division.
+const SAMPLE: usize = 1 << 17;
+
+/// Part of the whole area from which a part counts as wide, and the depth from which it no longer does.
+const WIDE: f32 = 1.0 / 512.0;
+const WIDE_DEPTH: u32 = 12;
 
 /// References that one thread handles at a time in a shared division.
 const SLICE: usize = 1 << 14;
@@ -27,7 +34,6 @@ pub(super) struct Part<'a> {
     /// Position of the first in the whole.
     pub(super) first: u32,
     pub(super) extent: Extent,
-    pub(super) tally: Tally,
     /// Ancestors in the binary tree.
     depth: u32,
 }
@@ -43,27 +49,26 @@ pub(super) enum Limb {
 /// `grain` references.
 pub(super) fn divide(references: &mut [Reference], spare: &mut [Reference], grain: usize) -> Limb {
     let extent = references.par_chunks(SLICE).map(Extent::of).reduce(|| Extent::EMPTY, Extent::union);
-    let tally = references.par_chunks(SLICE).map(Tally::of).reduce(
-        || Tally::ZERO,
-        |mut a, b| {
-            a.add(b);
-            a
-        },
-    );
-    let part = Part { references, spare, displaced: false, first: 0, extent, tally, depth: 0 };
-    limb(part, grain, &mut Bins::new())
+    let part = Part { references, spare, displaced: false, first: 0, extent, depth: 0 };
+    let least_area = extent.boxes.half_area() * WIDE;
+    limb(part, grain, least_area, &mut Bins::new())
 }
 
-fn limb(mut part: Part<'_>, grain: usize, bins: &mut Bins) -> Limb {
+fn limb(mut part: Part<'_>, grain: usize, least_area: f32, bins: &mut Bins) -> Limb {
     let count = part.references.len();
-    if count <= grain || part.is_leaf() {
+    // What few primitives cover much is above the branches, too, as far as it is not too deep: to move a wall matters.
+    let is_wide = part.depth < WIDE_DEPTH && part.extent.boxes.half_area() > least_area;
+    if part.is_leaf() || (count <= grain && !is_wide) {
         part.settle();
         return Limb::Branch(Grower::grow(part, bins));
     }
     let extent = part.extent;
     let (a, b) = if count > SHARED { part.split_by_all() } else { part.split(bins) };
     // A number of tasks that grows with the work alone; rayon spreads them.
-    let (a, b) = rayon::join(|| limb(a, grain, &mut Bins::new()), || limb(b, grain, &mut Bins::new()));
+    let (a, b) = rayon::join(
+        || limb(a, grain, least_area, &mut Bins::new()),
+        || limb(b, grain, least_area, &mut Bins::new()),
+    );
     Limb::Fork(Box::new((extent, a, b)))
 }
 
@@ -71,7 +76,7 @@ impl<'a> Part<'a> {
     /// Whether one packet, or the only item of a leaf, holds all.
     #[inline(always)]
     pub(super) fn is_leaf(&self) -> bool {
-        self.tally.weight() <= LANES as u32
+        self.extent.tally.weight() <= LANES as u32
     }
 
     /// Moves the references to their place.
@@ -89,12 +94,18 @@ impl<'a> Part<'a> {
         self.depth + 1 + levels <= MAX_DEPTH
     }
 
+    /// Of how many references one is enough to find a division.
+    #[inline(always)]
+    fn step(&self) -> usize {
+        (self.references.len() / SAMPLE).max(1)
+    }
+
     /// Two parts, found by one thread.
     #[inline(always)]
     pub(super) fn split(self, bins: &mut Bins) -> (Self, Self) {
         let mapping = Mapping::new(&self.extent, self.references.len());
         bins.clear(&mapping);
-        bins.add(self.references, &mapping);
+        bins.add(self.references, self.step(), &mapping);
         match bins.cheapest(&mapping).filter(|_| self.may_be_lopsided()) {
             Some(s) => self.split_at_division(&mapping, &s),
             None => self.halve(),
@@ -102,34 +113,24 @@ impl<'a> Part<'a> {
     }
 
     #[inline(always)]
-    fn split_at_division(self, mapping: &Mapping, s: &Division) -> (Self, Self) {
+    fn split_at_division(mut self, mapping: &Mapping, s: &Division) -> (Self, Self) {
+        self.settle();
         let n = self.references.len();
-        let middle = s.before.count();
         let (source, target) = (&mut *self.references, &mut self.spare[..n]);
-        if self.displaced {
-            let mut next = [0, middle];
-            for r in source.iter() {
-                let to = &mut next[usize::from(mapping.is_behind(r, s))];
-                target[*to] = *r;
-                *to += 1;
-            }
-        } else {
-            // Both places are written and one cursor moves: the outcome of the test is as good as random, and a
-            // branch on it would cost more.
-            let (mut before, mut behind) = (0, 0);
-            for i in 0..n {
-                let r = source[i];
-                let is_behind = usize::from(mapping.is_behind(&r, s));
-                source[before] = r;
-                target[behind] = r;
-                before += 1 - is_behind;
-                behind += is_behind;
-            }
-            source[middle..].copy_from_slice(&target[..n - middle]);
+        // Both places are written and one cursor moves: the outcome of the test is as good as random, and a branch
+        // on it would cost more.
+        let (mut before, mut behind) = (0, 0);
+        for i in 0..n {
+            let r = source[i];
+            let is_behind = usize::from(mapping.is_behind(&r, s));
+            source[before] = r;
+            target[behind] = r;
+            before += 1 - is_behind;
+            behind += is_behind;
         }
-        let displaced = self.displaced;
-        let this = if displaced { self.moved() } else { self };
-        this.cut(middle, s.before)
+        source[before..].copy_from_slice(&target[..behind]);
+        let extents = [Extent::of(&source[..before]), Extent::of(&source[before..])];
+        self.cut(before, extents)
     }
 
     /// Two halves of equal number along the axis on which the centres spread most: whatever the references, this ends
@@ -151,45 +152,50 @@ impl<'a> Part<'a> {
                 center(a)[axis].total_cmp(&center(b)[axis]).then(number(a).cmp(&number(b)))
             });
         }
-        let before = Tally::of(&self.references[..middle]);
-        self.cut(middle, before)
+        let extents = [Extent::of(&self.references[..middle]), Extent::of(&self.references[middle..])];
+        self.cut(middle, extents)
     }
 
     /// Two parts, found by all threads.
     fn split_by_all(self) -> (Self, Self) {
         let mapping = Mapping::new(&self.extent, self.references.len());
-        let slices: Vec<Bins> = self
-            .references
-            .par_chunks(SLICE)
-            .map(|slice| {
-                let mut bins = Bins::new();
-                bins.add(slice, &mapping);
-                bins
-            })
-            .collect();
-        let mut all = Bins::new();
-        slices.iter().for_each(|b| all.merge(b));
-        let Some(s) = all.cheapest(&mapping).filter(|_| self.may_be_lopsided()) else { return self.halve() };
-        let middle = s.before.count();
+        let step = self.step();
+        let sampled = |slice: &[Reference]| {
+            let mut bins = Bins::new();
+            bins.add(slice, step, &mapping);
+            bins
+        };
+        let merged = |mut a: Bins, b: Bins| {
+            a.merge(&b);
+            a
+        };
+        let bins = self.references.par_chunks(SLICE * step).map(sampled).reduce(Bins::new, merged);
+        let Some(s) = bins.cheapest(&mapping).filter(|_| self.may_be_lopsided()) else { return self.halve() };
+        let is_before = |r: &&Reference| !mapping.is_behind(r, &s);
+        let counts: Vec<usize> =
+            self.references.par_chunks(SLICE).map(|slice| slice.iter().filter(is_before).count()).collect();
+        let middle = counts.iter().sum();
         let (mut before, mut behind) = self.spare.split_at_mut(middle);
-        let mut jobs = Vec::with_capacity(slices.len());
-        for (slice, bins) in self.references.chunks(SLICE).zip(&slices) {
-            let count = bins.before(&s).count();
+        let mut jobs = Vec::with_capacity(counts.len());
+        for (slice, &count) in self.references.chunks(SLICE).zip(&counts) {
             let (a, b);
             (a, before) = before.split_at_mut(count);
             (b, behind) = behind.split_at_mut(slice.len() - count);
             jobs.push((slice, a, b));
         }
-        jobs.into_par_iter().for_each(|(slice, a, b)| {
+        let sort = |(slice, a, b): (&[Reference], &mut [Reference], &mut [Reference])| {
             let mut places = [a.iter_mut(), b.iter_mut()];
             for r in slice {
-                // The bins have counted as many, so there always is a place.
+                // As many were counted, so that there always is a place.
                 if let Some(place) = places[usize::from(mapping.is_behind(r, &s))].next() {
                     *place = *r;
                 }
             }
-        });
-        self.moved().cut(middle, s.before)
+            [Extent::of(a), Extent::of(b)]
+        };
+        let none = || [Extent::EMPTY; 2];
+        let extents = jobs.into_par_iter().map(sort).reduce(none, |[a, b], [c, d]| [a.union(c), b.union(d)]);
+        self.moved().cut(middle, extents)
     }
 
     /// The same after the references were written to the spare room.
@@ -199,29 +205,14 @@ impl<'a> Part<'a> {
     }
 
     #[inline(always)]
-    fn cut(self, middle: usize, before: Tally) -> (Self, Self) {
+    fn cut(self, middle: usize, [extent_a, extent_b]: [Extent; 2]) -> (Self, Self) {
         let (a, b) = self.references.split_at_mut(middle);
         let (spare_a, spare_b) = self.spare.split_at_mut(middle);
-        let (extent_a, extent_b) = if a.len() + b.len() > SHARED {
-            let of =
-                |s: &[Reference]| s.par_chunks(SLICE).map(Extent::of).reduce(|| Extent::EMPTY, Extent::union);
-            (of(a), of(b))
-        } else {
-            (Extent::of(a), Extent::of(b))
-        };
         let (displaced, depth) = (self.displaced, self.depth + 1);
-        let part = |references: &'a mut [Reference], spare, first, extent, tally| Part {
-            references,
-            spare,
-            displaced,
-            first,
-            extent,
-            tally,
-            depth,
-        };
+        let first = self.first + middle as u32;
         (
-            part(a, spare_a, self.first, extent_a, before),
-            part(b, spare_b, self.first + middle as u32, extent_b, self.tally.minus(before)),
+            Part { references: a, spare: spare_a, displaced, first: self.first, extent: extent_a, depth },
+            Part { references: b, spare: spare_b, displaced, first, extent: extent_b, depth },
         )
     }
 }

@@ -1,6 +1,6 @@
 //! Collecting what a tree is built over.
 
-use super::reference::{Reference, Subject};
+use super::reference::{Box4, Reference, Subject};
 use super::segments::Segments;
 use crate::accel::contract::{AccelError, InstanceId};
 use crate::accel::tree::Child;
@@ -34,21 +34,28 @@ pub(super) fn gather(
             || 0,
             |hint, i| {
                 let at = segments.locate(i, hint);
-                let (b, subject) = if let Some(&id) = ids.get(at.list) {
-                    let (s, prim) = (shape(at.list), at.index as u32);
-                    let subject = match s {
-                        Shape::Mesh(_) => Subject::Triangle { shape: id, prim },
-                        _ => Subject::Other { shape: id, prim },
-                    };
-                    (s.primitive(prim).bounds(), subject)
-                } else {
-                    let (id, b) = instances[at.index];
-                    (b, Subject::Instance(id))
+                let (b, subject) = match ids.get(at.list) {
+                    Some(&id) => {
+                        let prim = at.index as u32;
+                        match shape(at.list) {
+                            Shape::Mesh(s) => {
+                                (Box4::around(s.corners(prim)), Subject::Triangle { shape: id, prim })
+                            }
+                            s => {
+                                let b = s.primitive(prim).bounds();
+                                (Box4::from_bounds(&b), Subject::Other { shape: id, prim })
+                            }
+                        }
+                    }
+                    None => {
+                        let (id, b) = &instances[at.index];
+                        (Box4::from_bounds(b), Subject::Instance(*id))
+                    }
                 };
-                if !(b.min.is_finite() && b.max.is_finite()) {
+                if !(b.lo.is_finite() && b.hi.is_finite()) {
                     unbounded.store(true, Ordering::Relaxed);
                 }
-                Reference::new(&b, subject)
+                Reference::new(b, subject)
             },
         )
         .collect_into_vec(&mut references);

@@ -82,6 +82,24 @@ impl Choice {
     }
 }
 
+/// The children of a wide node, while it is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Children<N> {
+    nodes: [Option<N>; WIDTH],
+    count: usize,
+}
+
+impl<N: Copy> Children<N> {
+    fn push(&mut self, node: N) {
+        self.nodes[self.count] = Some(node);
+        self.count += 1;
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = N> {
+        self.nodes.into_iter().flatten()
+    }
+}
+
 /// A binary tree whose forks know their best choice.
 pub(super) trait Binary {
     /// A node.
@@ -90,22 +108,17 @@ pub(super) trait Binary {
     /// The choice and the children of a fork; `None` for a leaf.
     fn fork(&self, node: Self::Node) -> Option<(Choice, [Self::Node; 2])>;
 
-    /// Appends the children of the wide node that `node` becomes; a leaf becomes its own only child.
+    /// The children of the wide node that `node` becomes; a leaf becomes its own only child.
     #[inline]
-    fn wide_children(&self, node: Self::Node, children: &mut Vec<Self::Node>) {
-        children.clear();
+    fn wide_children(&self, node: Self::Node) -> Children<Self::Node> {
+        let mut children = Children { nodes: [None; WIDTH], count: 0 };
         // A fork is never the best forest of up to eight roots by itself: it costs its area more than its children.
-        match self.fork(node).and_then(|(choice, kids)| Some((choice.divide(WIDTH)?, kids))) {
-            Some((roots, kids)) => {
-                self.forest(kids[0], roots[0], children);
-                self.forest(kids[1], roots[1], children);
-            }
-            None => children.push(node),
-        }
+        self.forest(node, WIDTH, &mut children);
+        children
     }
 
     /// Appends the best forest of at most `roots`.
-    fn forest(&self, node: Self::Node, roots: usize, out: &mut Vec<Self::Node>) {
+    fn forest(&self, node: Self::Node, roots: usize, out: &mut Children<Self::Node>) {
         match self.fork(node).and_then(|(choice, kids)| Some((choice.divide(roots)?, kids))) {
             Some((roots, kids)) => {
                 self.forest(kids[0], roots[0], out);

@@ -13,6 +13,8 @@ mod gathering;
 mod pack;
 mod reference;
 mod segments;
+#[cfg(test)]
+mod tests;
 mod trunk;
 
 use super::contract::{AccelError, InstanceId, Layout};
@@ -32,10 +34,13 @@ const LARGEST_BRANCH: usize = 4096;
 /// Primitives of a branch at most, for however few of them in all: moving fewer is not worth it.
 const SMALLEST_BRANCH: usize = 32;
 
-/// Whether there are enough primitives to divide by all threads together.
+/// Primitives above which all threads build one tree together, and below which different trees.
+pub(super) const TOGETHER: usize = divide::SHARED;
+
+/// Whether there are enough primitives for all threads.
 pub(super) fn is_large(shapes: &[Shape], ids: &[ShapeId]) -> bool {
     let count = |id: &ShapeId| shapes.get(id.0 as usize).map_or(0, |s| s.prim_count() as usize);
-    ids.iter().map(count).sum::<usize>() > divide::SHARED
+    ids.iter().map(count).sum::<usize>() > TOGETHER
 }
 
 /// Builds the tree over all primitives of the shapes `ids` and over `instances` with their boxes.

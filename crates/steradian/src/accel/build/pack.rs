@@ -6,7 +6,7 @@ use super::segments::Segments;
 use crate::accel::contract::{AccelError, Coverage, Layout};
 use crate::accel::tree::{Child, Item, LANES, MixedLeaf, Owner, Packet, Target, Tree};
 use crate::math::Point;
-use crate::shape::{Primitive, Shape, ShapeId};
+use crate::shape::{Shape, ShapeId};
 use rayon::prelude::*;
 
 /// Where the elements of each chunk begin.
@@ -115,8 +115,8 @@ impl Packer<'_> {
         for lane in 0..LANES {
             if let Some(Subject::Triangle { shape, prim }) = references.get(lane).map(Reference::subject) {
                 (p.owners[lane], p.prims[lane]) = (self.owner(shape), prim);
-                if let Primitive::Triangle(corners) = self.shapes[shape.0 as usize].primitive(prim) {
-                    last = corners;
+                if let Shape::Mesh(mesh) = &self.shapes[shape.0 as usize] {
+                    last = mesh.corners(prim);
                 }
             }
             // Unused lanes repeat the last triangle: they pass the packet test only when it does.

@@ -28,6 +28,16 @@ impl Box4 {
         d.x * (d.y + d.z) + d.y * d.z
     }
 
+    #[inline(always)]
+    pub(super) fn around([a, b, c]: [Point; 3]) -> Self {
+        let [a, b, c] = [a.extend(0.0), b.extend(0.0), c.extend(0.0)];
+        Self { lo: a.min(b).min(c), hi: a.max(b).max(c) }
+    }
+
+    pub(super) fn from_bounds(b: &Bounds3) -> Self {
+        Self { lo: b.min.extend(0.0), hi: b.max.extend(0.0) }
+    }
+
     pub(super) fn bounds(self) -> Bounds3 {
         Bounds3 { min: Point(self.lo.truncate()), max: Point(self.hi.truncate()) }
     }
@@ -58,7 +68,8 @@ impl Reference {
     /// Shapes that can be told apart.
     pub(super) const MAX_SHAPES: usize = Self::INSTANCE as usize;
 
-    pub(super) fn new(b: &Bounds3, subject: Subject) -> Self {
+    #[inline(always)]
+    pub(super) fn new(b: Box4, subject: Subject) -> Self {
         let (first, second) = match subject {
             Subject::Triangle { shape, prim } => (shape.0, prim),
             Subject::Other { shape, prim } => (Self::OTHER | shape.0, prim),
@@ -66,7 +77,8 @@ impl Reference {
         };
         let word = |bits: u32| f32::from_bits(Self::NORMAL | bits);
         // Adding zero makes −0 positive: the smaller of the two zeros would depend on the order of comparison.
-        Self { lo: (b.min.0 + 0.0).extend(word(first)), hi: (b.max.0 + 0.0).extend(word(second)) }
+        let (lo, hi) = (b.lo + Vec4::ZERO, b.hi + Vec4::ZERO);
+        Self { lo: lo.with_w(word(first)), hi: hi.with_w(word(second)) }
     }
 
     pub(super) fn subject(&self) -> Subject {
@@ -109,22 +121,6 @@ impl Tally {
         self.0 += other.0;
     }
 
-    #[inline(always)]
-    pub(super) fn minus(self, part: Self) -> Self {
-        Self(self.0 - part.0)
-    }
-
-    pub(super) fn of(references: &[Reference]) -> Self {
-        let mut sum = Self::ZERO;
-        references.iter().for_each(|r| sum.add(r.tally()));
-        sum
-    }
-
-    #[inline(always)]
-    pub(super) fn count(self) -> usize {
-        self.0 as u32 as usize
-    }
-
     /// What testing all of them costs, in tests of a packet of triangles: anything else costs a packet of its own.
     #[inline(always)]
     pub(super) fn packets(self) -> u32 {
@@ -138,16 +134,17 @@ impl Tally {
     }
 }
 
-/// How far some references reach, and their centres.
+/// How far some references reach, and their centres, and how many there are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) boxes: Box4,
     /// Of [`Reference::center`].
     pub(super) centers: Box4,
+    pub(super) tally: Tally,
 }
 
 impl Extent {
-    pub(super) const EMPTY: Self = Self { boxes: Box4::EMPTY, centers: Box4::EMPTY };
+    pub(super) const EMPTY: Self = Self { boxes: Box4::EMPTY, centers: Box4::EMPTY, tally: Tally::ZERO };
 
     #[inline]
     pub(super) fn of(references: &[Reference]) -> Self {
@@ -156,11 +153,14 @@ impl Extent {
             let c = r.center();
             e.boxes = e.boxes.union(r.as_box());
             e.centers = e.centers.union(Box4 { lo: c, hi: c });
+            e.tally.add(r.tally());
         }
         e
     }
 
     pub(super) fn union(self, other: Self) -> Self {
-        Self { boxes: self.boxes.union(other.boxes), centers: self.centers.union(other.centers) }
+        let mut tally = self.tally;
+        tally.add(other.tally);
+        Self { boxes: self.boxes.union(other.boxes), centers: self.centers.union(other.centers), tally }
     }
 }
