@@ -305,7 +305,16 @@ fn info_describes_the_scene() {
     for expected in ["8 × 6, 4 samples per pixel", "1 with 1 primitives", "lm", "bounds (world)"] {
         assert!(said.out.contains(expected), "{expected}: {said:?}");
     }
-    assert!(desk.run(&["info"]).succeeded().out.contains("lights"));
+    let room = desk.run(&["info"]).succeeded().out;
+    assert!(room.contains("lights"));
+    // A packet holds four triangles of 36 bytes and their numbers, and a node has 256 bytes: a room of 36 triangles
+    // cannot take less than its geometry nor more than a packet and a node for each of them.
+    let line = room.lines().find(|l| l.starts_with("memory per triangle")).unwrap();
+    let figures: Vec<f64> = line.split_whitespace().filter_map(|w| w.parse().ok()).collect();
+    assert!(
+        matches!(figures[..], [resident, peak] if resident > 48.0 && peak >= resident && peak < 600.0),
+        "{line}"
+    );
 }
 
 #[test]

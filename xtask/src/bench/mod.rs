@@ -1,5 +1,7 @@
 //! The benchmark: every figure that the project claims about its speed, measured against its peers in one run.
 
+mod build;
+mod embree;
 mod error;
 pub(crate) mod job;
 mod options;
@@ -18,8 +20,12 @@ use std::process::Command;
 /// parts go on.
 type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
-const SECTIONS: &[Section] =
-    &[("samples", samples::measure), ("error", error::measure), ("scaling", scaling::measure)];
+const SECTIONS: &[Section] = &[
+    ("build", build::measure),
+    ("samples", samples::measure),
+    ("error", error::measure),
+    ("scaling", scaling::measure),
+];
 
 /// `bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N]
 /// [--output FILE]`.

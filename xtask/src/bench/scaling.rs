@@ -136,7 +136,7 @@ fn room(count: usize) -> String {
 }
 
 /// Processor time of this process so far, all threads [s].
-fn processor_seconds() -> Result<f64, String> {
+pub(super) fn processor_seconds() -> Result<f64, String> {
     let stat =
         std::fs::read_to_string("/proc/self/stat").map_err(|_| "no processor times here".to_owned())?;
     // The name in parentheses may hold spaces; user and system time are fields 14 and 15, in hundredths.

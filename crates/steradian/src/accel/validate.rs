@@ -157,7 +157,7 @@ impl Accel {
         for k in first..first + count {
             packets[k as usize] += 1;
             let p = &tree.packets[k as usize];
-            for lane in (0..super::tree::LANES).filter(|&l| p.owners[l] != Owner::NONE) {
+            for lane in (0..LANES).filter(|&l| p.owners[l] != Owner::NONE) {
                 b = b.union(Bounds3::from_points(p.triangle(lane)));
             }
         }
