@@ -1,8 +1,8 @@
 //! A branch of the binary tree: so few references that one thread makes all of it, while they are in its cache.
 
 use super::binning::Bins;
-use super::divide::Part;
 use super::gathering::{Choice, Costs};
+use super::part::Part;
 use super::reference::Box4;
 use glam::Vec4;
 

@@ -1,7 +1,7 @@
 //! From primitives to the 8-wide tree.
 //!
 //! In the order in which it happens: [`gather`] collects boxes, [`divide`] sorts them into a binary tree from the top down
-//! (with [`binning`] deciding where, and [`branch`] holding what one thread makes), [`trunk`] improves its upper part,
+//! (each [`part`] where [`binning`] finds it best, and [`branch`] holding what one thread makes), [`trunk`] improves its upper part,
 //! [`collapse`] makes wide nodes of it as [`gathering`] chooses, and [`pack`] lays out the result.
 
 mod binning;
@@ -11,6 +11,7 @@ mod divide;
 mod gather;
 mod gathering;
 mod pack;
+mod part;
 mod reference;
 mod segments;
 #[cfg(test)]
