@@ -15,6 +15,7 @@ pub struct Ray {
 
 impl Ray {
     /// The point at parametric distance `t`.
+    #[inline]
     pub fn at(&self, t: f32) -> Point {
         self.o + self.d * t
     }
@@ -34,6 +35,7 @@ pub struct BoundedPoint {
 
 impl BoundedPoint {
     /// A point that is exact by definition, such as the position of a point light.
+    #[inline]
     pub fn exact(p: Point) -> Self {
         Self { p, error: Vec3::ZERO }
     }
@@ -54,6 +56,7 @@ impl BoundedPoint {
     }
 
     /// Ray that leaves this point in direction `w`.
+    #[inline]
     pub fn spawn(&self, n: Normal, w: Dir, time: f32) -> Ray {
         Ray { o: self.offset_origin(n, *w), d: *w, time }
     }
@@ -61,6 +64,7 @@ impl BoundedPoint {
     /// Ray from this point towards `to`, where t = 1 is the target, moved off its own surface.
     ///
     /// `n` and `to_n` are the geometric normals; a target without a surface has `to_n` = `None`.
+    #[inline]
     pub fn spawn_to(&self, n: Normal, to: &BoundedPoint, to_n: Option<Normal>, time: f32) -> Ray {
         let o = self.offset_origin(n, to.p - self.p);
         let target = match to_n {

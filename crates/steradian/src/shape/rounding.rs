@@ -1,15 +1,16 @@
 //! Points computed in f64 and stored in f32, with bounds on what the storing loses.
 
-use crate::math::{BoundedPoint, Normal, Point, float};
+use crate::math::{BoundedPoint, Normal, Point, Vec3, float};
 use glam::DVec3;
 
 /// Rounds `p` to f32. `magnitude` bounds the absolute values that were added up per axis on the way to `p`:
 /// where they cancel, the error of f64 outweighs that of the rounding.
-pub(super) fn bounded(p: DVec3, magnitude: DVec3) -> BoundedPoint {
+#[inline]
+pub(super) fn bounded(p: DVec3, magnitude: Vec3) -> BoundedPoint {
     // 64 f64 operations are more than any shape here spends on a coordinate.
-    const F64_ERROR: f64 = 64.0 * f64::EPSILON;
+    const F64_ERROR: f32 = 64.0 * f64::EPSILON as f32;
     let rounded = p.as_vec3();
-    let error = rounded.abs() * float::gamma(2) + (magnitude * F64_ERROR).as_vec3();
+    let error = rounded.abs() * float::gamma(2) + magnitude * F64_ERROR;
     BoundedPoint { p: Point(rounded), error }
 }
 
