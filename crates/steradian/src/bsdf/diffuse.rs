@@ -139,7 +139,7 @@ impl DiffuseTransmission {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn cosine_sample(
     wo: LocalDir,
     side: Side,

@@ -67,7 +67,7 @@ impl Light {
     /// Light that arrives at `from`, directly; `prim` is the primitive of an emitting shape, `u` ∈ [0, 1)².
     ///
     /// `None` when nothing arrives for this `u`. Occlusion is the caller's to test.
-    #[inline]
+    #[inline(always)]
     pub fn sample(
         &self,
         from: &ReferencePoint,

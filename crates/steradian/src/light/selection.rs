@@ -89,7 +89,7 @@ impl LightSampler {
     }
 
     /// Chooses an emitter with `u` in [0, 1), for no place in particular; `None` when nothing emits.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, u: f32) -> Option<Chosen> {
         self.sample_group(u, |table, u| {
             let d = table.sample(u);
@@ -104,7 +104,7 @@ impl LightSampler {
 
     /// Chooses an emitter for the light that arrives at `from`; `None` when nothing reaches it. By power if the
     /// selection does not know places.
-    #[inline]
+    #[inline(always)]
     pub fn sample_at(&self, from: &ReferencePoint, u: f32) -> Option<Chosen> {
         let Some(tree) = &self.tree else { return self.sample(u) };
         self.sample_group(u, |_, u| {
@@ -121,7 +121,7 @@ impl LightSampler {
     }
 
     /// Chooses the group, then an emitter of it; `local` gets the stretched rest of `u`.
-    #[inline]
+    #[inline(always)]
     fn sample_group(&self, u: f32, local: impl FnOnce(&AliasTable, f32) -> Option<Chosen>) -> Option<Chosen> {
         let share = self.local_share;
         match &self.local {

@@ -331,7 +331,7 @@ impl Materials {
     /// Applies relief to the shading frame, and chooses among mixed materials by a hash of point and direction.
     /// Drops the companions of `w` where directions depend on the wavelength. `seed` starts the random walks of
     /// layered materials.
-    #[inline]
+    #[inline(always)]
     pub fn shade<'a>(
         &'a self,
         id: MaterialId,

@@ -58,7 +58,7 @@ impl<'a> SurfaceBsdf<'a> {
     }
 
     /// [`SurfaceBsdf::eval`] and [`SurfaceBsdf::pdf`] at once.
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&self, wo: Dir, wi: Dir, mode: Mode) -> Evaluation {
         if let Bsdf::Diffuse(diffuse) = &self.bsdf {
             // Lambert's law asks for the cosines alone.
@@ -83,7 +83,7 @@ impl<'a> SurfaceBsdf<'a> {
 
     /// Draws a direction with `uc` for the choice among lobes and `u` for the direction; `None` when the
     /// light is absorbed.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, wo: Dir, uc: f32, u: Vec2, mode: Mode) -> Option<SurfaceSample> {
         let wo = self.frame.to_local(wo);
         let s = match &self.bsdf {
@@ -125,7 +125,7 @@ impl<'a> SurfaceBsdf<'a> {
     }
 
     /// Which continuous lobes are present.
-    #[inline]
+    #[inline(always)]
     pub fn lobes(&self) -> Lobes {
         match &self.bsdf {
             Bsdf::Diffuse(diffuse) => diffuse.lobes(),

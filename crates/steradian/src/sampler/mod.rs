@@ -93,6 +93,15 @@ impl Sampler {
     pub fn next_1d(&mut self) -> f32 {
         match self {
             Self::Independent(s) => s.next_1d(),
+            _ => self.next_1d_of_sequence(),
+        }
+    }
+
+    /// Out of line: a sequence's arithmetic is long, and there are many callers.
+    #[inline(never)]
+    fn next_1d_of_sequence(&mut self) -> f32 {
+        match self {
+            Self::Independent(s) => s.next_1d(),
             Self::Stratified(s) => s.next_1d(),
             Self::Halton(s) => s.next_1d(),
             Self::PaddedSobol(s) => s.next_1d(),
@@ -103,6 +112,15 @@ impl Sampler {
     /// The next pair, stratified jointly; consumes two dimensions.
     #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
+        match self {
+            Self::Independent(s) => s.next_2d(),
+            _ => self.next_2d_of_sequence(),
+        }
+    }
+
+    /// Out of line: a sequence's arithmetic is long, and there are many callers.
+    #[inline(never)]
+    fn next_2d_of_sequence(&mut self) -> Vec2 {
         match self {
             Self::Independent(s) => s.next_2d(),
             Self::Stratified(s) => s.next_2d(),

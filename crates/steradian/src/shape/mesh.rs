@@ -139,7 +139,7 @@ impl TriangleMesh {
     }
 
     /// The normal `n` of the winding or its opposite, as the mesh has it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn outward(&self, n: Normal, triangle: u32, b: [f32; 2]) -> Normal {
         if !self.normals.is_empty() {
             let ns = interpolate(self.gather(&self.normals, triangle), b);
@@ -154,7 +154,7 @@ impl TriangleMesh {
     }
 
     /// Differential geometry at a hit.
-    #[inline]
+    #[inline(always)]
     pub fn surface(&self, triangle: u32, hit: &PrimHit, time: f32) -> SurfacePoint {
         let b = [hit.u, hit.v];
         let facet = Facet::new(self.corners(triangle));
@@ -174,7 +174,7 @@ impl TriangleMesh {
         SurfacePoint { p, ng, uv: interpolate(uvs, b), dpdu, dpdv, shading, time, face }
     }
 
-    #[inline]
+    #[inline(always)]
     fn shading(&self, triangle: u32, b: [f32; 2], ng: Normal, dpdu: Vec3, dpdv: Vec3) -> Shading {
         if self.normals.is_empty() && self.tangents.is_empty() {
             return Shading { n: ng, dpdu, dpdv, dndu: Vec3::ZERO, dndv: Vec3::ZERO };
@@ -182,6 +182,7 @@ impl TriangleMesh {
         self.smooth_shading(triangle, b, ng, dpdu)
     }
 
+    #[inline(never)]
     fn smooth_shading(&self, triangle: u32, b: [f32; 2], ng: Normal, dpdu: Vec3) -> Shading {
         let n = self.shading_normal(triangle, b).unwrap_or(ng);
         let tangent = if self.tangents.is_empty() {
@@ -254,7 +255,7 @@ impl Facet {
 }
 
 /// ∂p/∂u and ∂p/∂v of a triangle; of some frame in its plane where its parametrisation is degenerate.
-#[inline]
+#[inline(never)]
 fn parametrisation(uvs: [Vec2; 3], facet: &Facet) -> (Vec3, Vec3) {
     uv_derivatives(uvs, facet.e1, facet.e2)
         .map(|(du, dv)| (du.as_vec3(), dv.as_vec3()))

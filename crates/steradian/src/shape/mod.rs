@@ -141,7 +141,7 @@ impl Shape {
     }
 
     /// Differential geometry where `ray` meets primitive `prim`.
-    #[inline]
+    #[inline(always)]
     pub fn surface(&self, prim: u32, ray: &Ray, hit: &PrimHit) -> SurfacePoint {
         match self {
             Self::Mesh(s) => s.surface(prim, hit, ray.time),
@@ -189,7 +189,7 @@ impl Shape {
 
     /// Chooses a point of primitive `prim` for a reference point, by solid angle where the shape allows it;
     /// `None` when no usable direction results.
-    #[inline]
+    #[inline(always)]
     pub fn sample_toward(&self, prim: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
         match self {
             Self::Mesh(s) => s.sample_toward(prim, from, u),

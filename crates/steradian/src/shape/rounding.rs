@@ -23,5 +23,10 @@ pub(super) fn normalized(v: DVec3) -> Option<Normal> {
     if (1e-24..1e24).contains(&squared) {
         return Some(Normal::new_unchecked(rounded * (1.0 / squared.sqrt())));
     }
+    normalized_far_out(v)
+}
+
+#[cold]
+fn normalized_far_out(v: DVec3) -> Option<Normal> {
     Some(Normal::new_unchecked(v.try_normalize()?.as_vec3()))
 }

@@ -45,7 +45,7 @@ impl TriangleMesh {
         Some(self.sample_area_of(triangle, &facet, &plane, u))
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample_area_of(&self, triangle: u32, facet: &Facet, plane: &Plane, u: Vec2) -> ShapeSample {
         let [_, b1, b2] = warp::uniform_triangle(u);
         let b = [b1, b2];
@@ -58,7 +58,7 @@ impl TriangleMesh {
     }
 
     /// Chooses a point by the solid angle at `from`, with the cosine at a shading normal warped in.
-    #[inline]
+    #[inline(always)]
     pub fn sample_toward(&self, triangle: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
         let corners = self.corners(triangle);
         let facet = Facet::new(corners);

@@ -40,7 +40,7 @@ impl Spectrum {
     }
 
     /// The values at the wavelengths of a path, as the quantity that the caller knows them to be.
-    #[inline]
+    #[inline(always)]
     pub fn sample<Q>(&self, w: &Wavelengths) -> Sampled<Q> {
         let l = w.lambda();
         match self {

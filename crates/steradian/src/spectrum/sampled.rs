@@ -60,7 +60,7 @@ impl Wavelengths {
     }
 
     /// Values at the wavelengths, linear between those of a table at 360, 361, … 830 nm; zero outside.
-    #[inline]
+    #[inline(always)]
     pub(super) fn look_up(&self, table: &[f32]) -> [f32; LANES] {
         let (mut low, mut high) = ([0.0; LANES], [0.0; LANES]);
         for i in 0..LANES {

@@ -221,7 +221,7 @@ impl Dense {
     }
 
     /// [`Dense::at`] for the wavelengths of a path.
-    #[inline]
+    #[inline(always)]
     pub(super) fn sample(&self, w: &Wavelengths) -> [f32; LANES] {
         if self.start == LAMBDA_MIN && self.value.len() == NANOMETRES {
             return w.look_up(&self.value);
