@@ -43,16 +43,10 @@ impl BoundedPoint {
     /// Origin for a ray that leaves towards `w`: moved along `n` to the side of `w`, out of the error box.
     #[inline]
     pub fn offset_origin(&self, n: Normal, w: Vec3) -> Point {
-        let distance = n.abs().dot(self.error);
-        let mut offset = n * distance;
-        if w.dot(*n) < 0.0 {
-            offset = -offset;
-        }
-        let o = *self.p + offset;
-        // The sum rounds too: step on by an ulp or two, away from the surface.
-        let ulp = o.abs() * f32::EPSILON + f32::MIN_POSITIVE;
-        let step = Vec3::select(offset.cmpne(Vec3::ZERO), ulp.copysign(offset), Vec3::ZERO);
-        Point(o + step)
+        // The sum below rounds too, by half an ulp of each coordinate: the box grows by twice that.
+        let distance = n.abs().dot(self.error + self.p.abs() * f32::EPSILON);
+        let distance = if w.dot(*n) < 0.0 { -distance } else { distance };
+        self.p + n * distance
     }
 
     /// Ray that leaves this point in direction `w`.

@@ -64,7 +64,7 @@ impl Spectrum {
                 // Apart, because the table's gathers would keep the filter's arithmetic from being vectorised.
                 let filter = at_each(l, |l| r.scale * r.sigmoid.at(l));
                 let mut out = r.illuminant.sample(w);
-                out.iter_mut().zip(filter).for_each(|(white, filter)| *white = filter * *white);
+                out.iter_mut().zip(filter).for_each(|(white, filter)| *white *= filter);
                 out
             }
         }

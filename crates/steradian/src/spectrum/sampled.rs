@@ -52,7 +52,7 @@ impl Wavelengths {
             let x = lambda[i] - LAMBDA_MIN;
             // The end of the range belongs to the last interval.
             let floor = (x as i32).min((LAMBDA_MAX - LAMBDA_MIN) as i32 - 1);
-            let inside = x >= 0.0 && x <= LAMBDA_MAX - LAMBDA_MIN;
+            let inside = (0.0..=LAMBDA_MAX - LAMBDA_MIN).contains(&x);
             cell[i] = if inside { floor as u32 } else { OUTSIDE };
             fraction[i] = x - floor as f32;
         }
