@@ -15,10 +15,12 @@ mod traverse;
 mod tests;
 mod tree;
 pub mod validate;
+pub mod wide;
 
 pub use contract::{AccelError, Candidate, Coverage, Hit, Instance, InstanceId, Layout, ObjectId};
 pub use structure::Accel;
 pub use validate::{AccelStats, Violation};
+pub use wide::Work;
 
 use crate::math::{Bounds3, Ray, SurfacePoint};
 use crate::shape::{Shape, ShapeId};

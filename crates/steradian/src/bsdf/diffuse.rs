@@ -16,9 +16,15 @@ pub struct Diffuse {
 }
 
 impl Diffuse {
+    /// f [sr⁻¹] for two directions on the same side.
+    #[inline]
+    pub fn value(&self) -> Sampled<PerSteradian> {
+        (self.reflectance * FRAC_1_PI).cast()
+    }
+
     /// f [sr⁻¹]; zero across the surface.
     pub fn eval(&self, wo: LocalDir, wi: LocalDir) -> Sampled<PerSteradian> {
-        if wo.same_hemisphere(wi) { (self.reflectance * FRAC_1_PI).cast() } else { Sampled::ZERO }
+        if wo.same_hemisphere(wi) { self.value() } else { Sampled::ZERO }
     }
 
     /// cosθ/π on the side of `wo`.
@@ -31,6 +37,7 @@ impl Diffuse {
     }
 
     /// A cosine-distributed direction on the side of `wo`.
+    #[inline]
     pub fn sample(&self, wo: LocalDir, u: Vec2) -> Option<BsdfSample> {
         cosine_sample(wo, Side::Reflection, 1.0, self.reflectance, u)
     }
@@ -41,6 +48,7 @@ impl Diffuse {
     }
 
     /// Which lobes are present.
+    #[inline]
     pub fn lobes(&self) -> Lobes {
         Lobes { reflection: !self.reflectance.is_zero(), transmission: false }
     }
@@ -131,6 +139,7 @@ impl DiffuseTransmission {
     }
 }
 
+#[inline(always)]
 fn cosine_sample(
     wo: LocalDir,
     side: Side,

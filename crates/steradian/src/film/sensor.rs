@@ -5,7 +5,7 @@ use crate::color::{Adaptation, ColorSpace, ConeModel, Rgb, Xyz, cie};
 use crate::math::Vec3;
 use crate::spectrum::{LANES, Sampled, Wavelengths};
 use crate::units::{Kelvin, LUMENS_PER_WATT, Radiance};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec4};
 
 /// How radiance is turned into numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,14 +97,14 @@ impl Sensor {
 /// One sample of ∫ L x̄, ∫ L ȳ, ∫ L z̄ dλ. Companions that were dropped have density zero and do not count,
 /// whatever they carry.
 pub(super) fn tristimulus(l: Sampled<Radiance>, w: &Wavelengths) -> Vec3 {
-    let mut sum = Vec3::ZERO;
+    let mut sum = Vec4::ZERO;
     for lane in 0..LANES {
-        let (lambda, pdf) = (w.lambda()[lane], w.pdf()[lane]);
+        let pdf = w.pdf()[lane];
         if pdf > 0.0 {
-            sum += Vec3::from_array(cie::bars(lambda)) * (l[lane] / pdf);
+            sum += cie::bars_at(w, lane) * (l[lane] / pdf);
         }
     }
-    sum / LANES as f32
+    sum.truncate() / LANES as f32
 }
 
 /// Nominal daylight temperatures (D65: 6500 K) predate the present second radiation constant.

@@ -4,6 +4,7 @@ use crate::units::PdfSolidAngle;
 
 /// Weight of a sample from the first of two techniques, one sample each, power heuristic with exponent 2
 /// (Veach 1997, eq. 9.14). Zero when the first density is zero; the limit 1 when it is infinite.
+#[inline]
 pub(crate) fn power_heuristic(own: PdfSolidAngle, other: PdfSolidAngle) -> f32 {
     if own.0 <= 0.0 {
         return 0.0;

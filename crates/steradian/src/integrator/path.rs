@@ -4,8 +4,9 @@
 use super::contract::{Arriving, FirstSurface, Integrator, Metering, SensorPoint, Tally, VisibleSurface};
 use super::mis::power_heuristic;
 use super::vertex::{albedo, reference};
+use crate::accel::Work;
 use crate::bsdf::{Lobe, Mode, Side};
-use crate::material::SurfaceBsdf;
+use crate::material::{Evaluation, SurfaceBsdf};
 use crate::math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use crate::math::{Dir, Frame, Ray};
 use crate::sampler::Sampler;
@@ -15,6 +16,7 @@ use crate::spectrum::{Sampled, Wavelengths};
 use crate::units::kind::Irradiance;
 use crate::units::{Density, PdfSolidAngle, Radiance, Unitless};
 use std::f32::consts::PI;
+use std::marker::PhantomData;
 
 /// The path tracer.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +88,8 @@ impl Integrator for PathTracer {
         tally: &mut Tally,
         first: Option<&mut FirstSurface>,
     ) -> Sampled<Radiance> {
-        self.walk(scene, ray, Arrival::Only, w, sampler, tally, first)
+        let (arrival, found) = (Arrival::Only, PhantomData);
+        scene.accel().work(Walk { tracer: self, scene, ray, arrival, w, sampler, tally, first, found })
     }
 }
 
@@ -109,15 +112,40 @@ impl Metering for PathTracer {
         let wi = Frame::from_z(sensor.n).to_world(local);
         let ray = sensor.p.spawn(sensor.n, wi, sensor.time);
         let arrival = Arrival::Scattered { from, density };
-        let found: ByHistory = self.walk(scene, ray, arrival, w, sampler, tally, None);
+        let (first, found) = (None, PhantomData::<ByHistory>);
+        let found =
+            scene.accel().work(Walk { tracer: self, scene, ray, arrival, w, sampler, tally, first, found });
         // cosθ over the density cosθ/π.
         Arriving { direct: sampled + (found.direct * PI).cast(), indirect: (found.indirect * PI).cast() }
     }
 }
 
+/// [`PathTracer::walk`] with its arguments.
+struct Walk<'a, C> {
+    tracer: &'a PathTracer,
+    scene: &'a Scene,
+    ray: Ray,
+    arrival: Arrival,
+    w: &'a mut Wavelengths,
+    sampler: &'a mut Sampler,
+    tally: &'a mut Tally,
+    first: Option<&'a mut FirstSurface>,
+    found: PhantomData<C>,
+}
+
+impl<C: Collect> Work for Walk<'_, C> {
+    type Output = C;
+
+    #[inline(always)]
+    fn run(self) -> C {
+        let Self { tracer, scene, ray, arrival, w, sampler, tally, first, found: _ } = self;
+        tracer.walk(scene, ray, arrival, w, sampler, tally, first)
+    }
+}
+
 impl PathTracer {
     /// The path that begins with `ray`, the way in which the ray was chosen being `arrival`.
-    #[inline]
+    #[inline(always)]
     fn walk<C: Collect>(
         &self,
         scene: &Scene,
@@ -135,9 +163,9 @@ impl PathTracer {
         let mut widened = false;
         let mut depth = 0;
         tally.paths += 1;
+        let Some(mut direction) = Dir::new(ray.d) else { return found };
         loop {
             tally.closest_rays += 1;
-            let Some(direction) = Dir::new(ray.d) else { break };
             let met = scene.intersect(&ray, f32::INFINITY);
             // By reference: hits and scattering functions are too large to be moved once more.
             let Some(hit) = &met else {
@@ -199,7 +227,8 @@ impl PathTracer {
                 Density::Delta => Arrival::Only,
                 Density::SolidAngle(density) => Arrival::Scattered { from, density },
             };
-            ray = hit.point.p.spawn(hit.point.ng, scattered.wi, ray.time);
+            direction = scattered.wi;
+            ray = hit.point.p.spawn(hit.point.ng, direction, ray.time);
             // Survival in proportion to what the path still carries; exact in expectation (Arvo & Kirk 1990).
             let carried = (throughput * eta_scale).max();
             if !(carried > 0.0) {
@@ -247,6 +276,7 @@ fn light_at_sensor(
 }
 
 /// One light sample, A (31): radiance that reaches the point from a light and is scattered towards `wo`.
+#[inline(always)]
 fn sample_direct(
     scene: &Scene,
     from: &ReferencePoint,
@@ -258,7 +288,7 @@ fn sample_direct(
 ) -> Sampled<Radiance> {
     let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
     let Some(light) = scene.sample_light(from, u_light, u, w) else { return Sampled::ZERO };
-    let f = bsdf.eval(wo, light.wi, Mode::Radiance);
+    let Evaluation { f, pdf } = bsdf.evaluate(wo, light.wi, Mode::Radiance);
     if f.is_zero() || light.radiance.is_zero() {
         return Sampled::ZERO;
     }
@@ -271,8 +301,7 @@ fn sample_direct(
         // The chance of having picked this light is already divided out of a delta light's sample.
         Density::Delta => f.reflect(light.radiance, cos, PdfSolidAngle(1.0)),
         Density::SolidAngle(density) => {
-            let other = bsdf.pdf(wo, light.wi, Mode::Radiance);
-            f.reflect(light.radiance, cos, density) * power_heuristic(density, other)
+            f.reflect(light.radiance, cos * power_heuristic(density, pdf), density)
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::spectrum::Sampled;
 use crate::units::Unitless;
 
 /// The surface as lights see it that scatters towards `wo`.
+#[inline]
 pub(super) fn reference(point: &SurfacePoint, bsdf: &SurfaceBsdf, wo: Dir) -> ReferencePoint {
     let n = bsdf.n();
     let lit_side = (!bsdf.lobes().transmission).then(|| n.facing(*wo));

@@ -87,6 +87,7 @@ impl DiffuseAreaLight {
         self.area
     }
 
+    #[inline(always)]
     pub(super) fn sample(
         &self,
         from: &ReferencePoint,
@@ -119,6 +120,7 @@ impl DiffuseAreaLight {
         shapes.get(self.shape.0 as usize).map_or(PdfSolidAngle(0.0), |s| s.pdf_toward(prim, from, wi, hit))
     }
 
+    #[inline(always)]
     pub(super) fn radiance(&self, n: Normal, uv: Vec2, wo: Dir, w: &Wavelengths) -> Sampled<Radiance> {
         if self.sides == Sides::Front && n.dot(*wo) < 0.0 {
             return Sampled::ZERO;

@@ -67,7 +67,24 @@ impl Light {
     /// Light that arrives at `from`, directly; `prim` is the primitive of an emitting shape, `u` ∈ [0, 1)².
     ///
     /// `None` when nothing arrives for this `u`. Occlusion is the caller's to test.
+    #[inline(always)]
     pub fn sample(
+        &self,
+        from: &ReferencePoint,
+        shapes: &[Shape],
+        prim: u32,
+        u: Vec2,
+        w: &Wavelengths,
+    ) -> Option<LightSample> {
+        match self {
+            Self::DiffuseArea(l) => l.sample(from, shapes, prim, u, w),
+            _ => self.sample_rarer(from, shapes, prim, u, w),
+        }
+    }
+
+    /// Out of line, so that emitting shapes have the caller's loop for themselves.
+    #[inline(never)]
+    fn sample_rarer(
         &self,
         from: &ReferencePoint,
         shapes: &[Shape],

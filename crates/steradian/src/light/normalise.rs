@@ -169,6 +169,7 @@ impl Emission {
     }
 
     /// Values at a path's wavelengths; the owner knows whether they are radiance, intensity or irradiance.
+    #[inline(always)]
     pub(super) fn at(&self, w: &Wavelengths) -> Sampled<Radiance> {
         self.spectrum.sample(w)
     }

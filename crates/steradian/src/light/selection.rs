@@ -39,6 +39,8 @@ pub struct LightSampler {
     emitters: Vec<Emitter>,
     /// `None` when no local emitter emits.
     local: Option<AliasTable>,
+    /// Probability of choosing the group of local emitters.
+    local_share: f32,
     /// `None` when the choice does not depend on the place.
     tree: Option<LightTree>,
     /// Where each light's entries begin.
@@ -80,19 +82,14 @@ impl LightSampler {
             }
         }
         sampler.local = AliasTable::new(&weights);
+        sampler.local_share =
+            sampler.local.as_ref().map_or(0.0, |_| 1.0 / (1.0 + sampler.infinite.len() as f32));
         sampler.tree = LightTree::build(&bounds);
         sampler
     }
 
-    /// Probability of choosing the group of local emitters.
-    fn local_share(&self) -> f32 {
-        match self.local {
-            Some(_) => 1.0 / (1.0 + self.infinite.len() as f32),
-            None => 0.0,
-        }
-    }
-
     /// Chooses an emitter with `u` in [0, 1), for no place in particular; `None` when nothing emits.
+    #[inline(always)]
     pub fn sample(&self, u: f32) -> Option<Chosen> {
         self.sample_group(u, |table, u| {
             let d = table.sample(u);
@@ -107,6 +104,7 @@ impl LightSampler {
 
     /// Chooses an emitter for the light that arrives at `from`; `None` when nothing reaches it. By power if the
     /// selection does not know places.
+    #[inline(always)]
     pub fn sample_at(&self, from: &ReferencePoint, u: f32) -> Option<Chosen> {
         let Some(tree) = &self.tree else { return self.sample(u) };
         self.sample_group(u, |_, u| {
@@ -123,8 +121,9 @@ impl LightSampler {
     }
 
     /// Chooses the group, then an emitter of it; `local` gets the stretched rest of `u`.
+    #[inline(always)]
     fn sample_group(&self, u: f32, local: impl FnOnce(&AliasTable, f32) -> Option<Chosen>) -> Option<Chosen> {
-        let share = self.local_share();
+        let share = self.local_share;
         match &self.local {
             Some(table) if u < share || self.infinite.is_empty() => {
                 let chosen = local(table, (u / share).min(ONE_MINUS_EPSILON))?;
@@ -142,10 +141,10 @@ impl LightSampler {
 
     fn group_probability(&self, emitter: Emitter, local: impl FnOnce(&AliasTable, usize) -> f32) -> f32 {
         match self.places.get(emitter.light.0 as usize) {
-            Some(Place::Infinite) => (1.0 - self.local_share()) / self.infinite.len() as f32,
+            Some(Place::Infinite) => (1.0 - self.local_share) / self.infinite.len() as f32,
             Some(&Place::Local(first)) => {
                 let index = first as usize + emitter.prim as usize;
-                self.local.as_ref().map_or(0.0, |table| local(table, index) * self.local_share())
+                self.local.as_ref().map_or(0.0, |table| local(table, index) * self.local_share)
             }
             Some(Place::Nowhere) | None => 0.0,
         }

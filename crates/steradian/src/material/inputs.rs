@@ -17,6 +17,7 @@ pub struct Lookup<'a> {
 }
 
 impl<'a> Lookup<'a> {
+    #[inline]
     pub(super) fn new(
         textures: &'a Textures,
         point: &'a SurfacePoint,
@@ -32,6 +33,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// A spectrum at the path's wavelengths.
+    #[inline]
     pub fn spectrum(&self, input: &SpectrumInput) -> Sampled<Unitless> {
         self.textures.spectrum_input(input, &self.at, self.wavelengths)
     }
@@ -52,6 +54,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// A reflectance, limited to what a surface can reflect.
+    #[inline]
     pub fn reflectance(&self, input: &SpectrumInput) -> Sampled<Unitless> {
         self.spectrum(input).clamp(0.0, 1.0)
     }

@@ -41,7 +41,7 @@ pub use openpbr::OpenPbrMaterial;
 pub use oren_nayar::OrenNayarMaterial;
 pub use schema::{Arguments, Fault, MaterialId, Parameter, ParameterKind};
 pub use stack::{StackBase, StackMaterial};
-pub use surface::{SurfaceBsdf, SurfaceSample};
+pub use surface::{Evaluation, SurfaceBsdf, SurfaceSample};
 
 use crate::bsdf::Bsdf;
 use crate::image::Image;
@@ -331,7 +331,28 @@ impl Materials {
     /// Applies relief to the shading frame, and chooses among mixed materials by a hash of point and direction.
     /// Drops the companions of `w` where directions depend on the wavelength. `seed` starts the random walks of
     /// layered materials.
+    #[inline(always)]
     pub fn shade<'a>(
+        &'a self,
+        id: MaterialId,
+        point: &SurfacePoint,
+        footprint: &Footprint,
+        wo: Dir,
+        textures: &Textures,
+        w: &mut Wavelengths,
+        seed: u64,
+    ) -> Option<SurfaceBsdf<'a>> {
+        let entry = &self.entries[id.0 as usize];
+        if let (Material::Diffuse(diffuse), Detail::Flat) = (&entry.material, entry.detail) {
+            // The commonest, in the caller's loop; it has no use for the direction of the parametrisation.
+            let bsdf = diffuse.scatterer(&mut Lookup::new(textures, point, footprint, w), seed)?;
+            return Some(SurfaceBsdf::isotropic(bsdf, point.shading.n));
+        }
+        self.shade_rarer(id, point, footprint, wo, textures, w, seed)
+    }
+
+    #[inline(never)]
+    fn shade_rarer<'a>(
         &'a self,
         id: MaterialId,
         point: &SurfacePoint,

@@ -1,6 +1,7 @@
 //! A scattering function placed on a surface: world directions in, world directions out.
 
 use crate::bsdf::{Bsdf, Lobe, Lobes, Mode, Side};
+use crate::math::warp::cosine_hemisphere_pdf;
 use crate::math::{Dir, Frame, Normal, Shading, Vec2};
 use crate::spectrum::Sampled;
 use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
@@ -29,8 +30,24 @@ pub struct SurfaceSample {
     pub eta: f32,
 }
 
+/// What a pair of directions makes of a [`SurfaceBsdf`].
+#[derive(Clone, Copy, Debug)]
+pub struct Evaluation {
+    /// f [sr⁻¹], as [`SurfaceBsdf::eval`] gives it.
+    pub f: Sampled<PerSteradian>,
+    /// Density as [`SurfaceBsdf::pdf`] gives it; zero where f is.
+    pub pdf: PdfSolidAngle,
+}
+
 impl<'a> SurfaceBsdf<'a> {
+    /// Places a `bsdf` that looks alike from all sides on a surface with shading normal `n`.
+    #[inline]
+    pub(super) fn isotropic(bsdf: Bsdf<'a>, n: Normal) -> Self {
+        Self { bsdf, frame: Frame::from_z(n) }
+    }
+
     /// Places `bsdf` on a surface: z is the shading normal, x the shading ∂p/∂u.
+    #[inline]
     pub fn new(bsdf: Bsdf<'a>, shading: &Shading) -> Self {
         Self { bsdf, frame: Frame::from_z_x(shading.n, shading.dpdu) }
     }
@@ -40,6 +57,25 @@ impl<'a> SurfaceBsdf<'a> {
         self.bsdf.eval(self.frame.to_local(wo), self.frame.to_local(wi), mode)
     }
 
+    /// [`SurfaceBsdf::eval`] and [`SurfaceBsdf::pdf`] at once.
+    #[inline(always)]
+    pub fn evaluate(&self, wo: Dir, wi: Dir, mode: Mode) -> Evaluation {
+        if let Bsdf::Diffuse(diffuse) = &self.bsdf {
+            // Lambert's law asks for the cosines alone.
+            let (cos_o, cos_i) = (self.frame.n.dot(*wo), self.frame.n.dot(*wi));
+            return match cos_o * cos_i > 0.0 {
+                true => {
+                    Evaluation { f: diffuse.value(), pdf: PdfSolidAngle(cosine_hemisphere_pdf(cos_i.abs())) }
+                }
+                false => Evaluation { f: Sampled::ZERO, pdf: PdfSolidAngle(0.0) },
+            };
+        }
+        let (wo, wi) = (self.frame.to_local(wo), self.frame.to_local(wi));
+        let f = self.bsdf.eval(wo, wi, mode);
+        let pdf = if f.is_zero() { PdfSolidAngle(0.0) } else { self.bsdf.pdf(wo, wi, mode) };
+        Evaluation { f, pdf }
+    }
+
     /// Density of `wi` among the continuous directions that [`SurfaceBsdf::sample`] draws for `wo`.
     pub fn pdf(&self, wo: Dir, wi: Dir, mode: Mode) -> PdfSolidAngle {
         self.bsdf.pdf(self.frame.to_local(wo), self.frame.to_local(wi), mode)
@@ -47,8 +83,14 @@ impl<'a> SurfaceBsdf<'a> {
 
     /// Draws a direction with `uc` for the choice among lobes and `u` for the direction; `None` when the
     /// light is absorbed.
+    #[inline(always)]
     pub fn sample(&self, wo: Dir, uc: f32, u: Vec2, mode: Mode) -> Option<SurfaceSample> {
-        let s = self.bsdf.sample(self.frame.to_local(wo), uc, u, mode)?;
+        let wo = self.frame.to_local(wo);
+        let s = match &self.bsdf {
+            // The commonest, in the caller's loop.
+            Bsdf::Diffuse(diffuse) => diffuse.sample(wo, u)?,
+            bsdf => bsdf.sample(wo, uc, u, mode)?,
+        };
         Some(SurfaceSample {
             wi: self.frame.to_world(s.wi),
             weight: s.weight,
@@ -60,16 +102,19 @@ impl<'a> SurfaceBsdf<'a> {
     }
 
     /// |cosθ| of a direction to the shading normal, the one that belongs to [`SurfaceBsdf::eval`].
+    #[inline]
     pub fn abs_cos(&self, w: Dir) -> f32 {
         self.frame.n.dot(*w).abs()
     }
 
     /// The shading normal.
+    #[inline]
     pub fn n(&self) -> Normal {
         Normal::new_unchecked(self.frame.n)
     }
 
     /// The shading frame.
+    #[inline]
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
@@ -80,8 +125,12 @@ impl<'a> SurfaceBsdf<'a> {
     }
 
     /// Which continuous lobes are present.
+    #[inline(always)]
     pub fn lobes(&self) -> Lobes {
-        self.bsdf.lobes()
+        match &self.bsdf {
+            Bsdf::Diffuse(diffuse) => diffuse.lobes(),
+            bsdf => bsdf.lobes(),
+        }
     }
 
     /// Widens narrow lobes: a named bias, off unless asked for.

@@ -67,6 +67,7 @@ impl AliasTable {
     }
 
     /// Draws an index with `u` in [0, 1).
+    #[inline]
     pub fn sample(&self, u: f32) -> Discrete {
         let n = self.bins.len();
         let scaled = u * n as f32;

@@ -15,6 +15,7 @@ pub struct Frame {
 
 impl Frame {
     /// A frame around `n` with arbitrary tangents, continuous but for z = 0 (Duff et al. 2017, listing 3).
+    #[inline]
     pub fn from_z(n: impl Into<Vec3>) -> Self {
         let n: Vec3 = n.into();
         let sign = 1.0_f32.copysign(n.z);
@@ -29,6 +30,7 @@ impl Frame {
 
     /// A frame around `n` whose x axis is `x` made orthogonal to it (Gram–Schmidt); when `x` is parallel
     /// to `n` or not finite, the tangents are those of [`Frame::from_z`].
+    #[inline]
     pub fn from_z_x(n: Normal, x: Vec3) -> Self {
         let n_vec: Vec3 = n.into();
         match Dir::new(x - n_vec * n_vec.dot(x)) {
@@ -38,11 +40,13 @@ impl Frame {
     }
 
     /// World to local.
+    #[inline]
     pub fn to_local(&self, v: Dir) -> LocalDir {
         LocalDir::new_unchecked(Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n)))
     }
 
     /// Local to world.
+    #[inline]
     pub fn to_world(&self, v: LocalDir) -> Dir {
         Dir::new_unchecked(self.s * v.x + self.t * v.y + self.n * v.z)
     }

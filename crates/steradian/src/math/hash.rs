@@ -1,6 +1,7 @@
 //! Stateless hashing and a small counter-free generator: randomness as a function of its arguments.
 
 /// Mixes all bits of a 64-bit word (the finaliser of MurmurHash3; Stafford's variant 13).
+#[inline]
 pub const fn mix_bits(mut v: u64) -> u64 {
     v ^= v >> 30;
     v = v.wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -10,6 +11,7 @@ pub const fn mix_bits(mut v: u64) -> u64 {
 }
 
 /// Folds one more word into a running hash.
+#[inline]
 pub const fn combine(h: u64, v: u64) -> u64 {
     mix_bits(h.rotate_left(26) ^ v.wrapping_mul(0x9e37_79b9_7f4a_7c15))
 }
@@ -25,6 +27,7 @@ pub fn hash_floats(floats: &[f32]) -> u64 {
 }
 
 /// The top 24 bits of a word as a uniform f32 in [0, 1).
+#[inline]
 pub const fn to_unit(v: u64) -> f32 {
     (v >> 40) as f32 * (1.0 / 16_777_216.0)
 }

@@ -15,6 +15,7 @@ pub struct Ray {
 
 impl Ray {
     /// The point at parametric distance `t`.
+    #[inline]
     pub fn at(&self, t: f32) -> Point {
         self.o + self.d * t
     }
@@ -34,6 +35,7 @@ pub struct BoundedPoint {
 
 impl BoundedPoint {
     /// A point that is exact by definition, such as the position of a point light.
+    #[inline]
     pub fn exact(p: Point) -> Self {
         Self { p, error: Vec3::ZERO }
     }
@@ -41,19 +43,14 @@ impl BoundedPoint {
     /// Origin for a ray that leaves towards `w`: moved along `n` to the side of `w`, out of the error box.
     #[inline]
     pub fn offset_origin(&self, n: Normal, w: Vec3) -> Point {
-        let distance = n.abs().dot(self.error);
-        let mut offset = n * distance;
-        if w.dot(*n) < 0.0 {
-            offset = -offset;
-        }
-        let o = *self.p + offset;
-        // The sum rounds too: step on by an ulp or two, away from the surface.
-        let ulp = o.abs() * f32::EPSILON + f32::MIN_POSITIVE;
-        let step = Vec3::select(offset.cmpne(Vec3::ZERO), ulp.copysign(offset), Vec3::ZERO);
-        Point(o + step)
+        // The sum below rounds too, by half an ulp of each coordinate: the box grows by twice that.
+        let distance = n.abs().dot(self.error + self.p.abs() * f32::EPSILON);
+        let distance = if w.dot(*n) < 0.0 { -distance } else { distance };
+        self.p + n * distance
     }
 
     /// Ray that leaves this point in direction `w`.
+    #[inline]
     pub fn spawn(&self, n: Normal, w: Dir, time: f32) -> Ray {
         Ray { o: self.offset_origin(n, *w), d: *w, time }
     }
@@ -61,6 +58,7 @@ impl BoundedPoint {
     /// Ray from this point towards `to`, where t = 1 is the target, moved off its own surface.
     ///
     /// `n` and `to_n` are the geometric normals; a target without a surface has `to_n` = `None`.
+    #[inline]
     pub fn spawn_to(&self, n: Normal, to: &BoundedPoint, to_n: Option<Normal>, time: f32) -> Ray {
         let o = self.offset_origin(n, to.p - self.p);
         let target = match to_n {

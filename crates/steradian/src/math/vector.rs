@@ -29,11 +29,13 @@ impl Point {
     pub const ORIGIN: Self = Self(Vec3::ZERO);
 
     /// A point from its coordinates.
+    #[inline]
     pub const fn new(x: f32, y: f32, z: f32) -> Self {
         Self(Vec3::new(x, y, z))
     }
 
     /// Squared distance to `other`.
+    #[inline]
     pub fn distance_squared(self, other: Self) -> f32 {
         self.0.distance_squared(other.0)
     }
@@ -41,6 +43,7 @@ impl Point {
 
 impl Deref for Point {
     type Target = Vec3;
+    #[inline]
     fn deref(&self) -> &Vec3 {
         &self.0
     }
@@ -48,6 +51,7 @@ impl Deref for Point {
 
 impl Sub for Point {
     type Output = Vec3;
+    #[inline]
     fn sub(self, rhs: Self) -> Vec3 {
         self.0 - rhs.0
     }
@@ -55,6 +59,7 @@ impl Sub for Point {
 
 impl Add<Vec3> for Point {
     type Output = Self;
+    #[inline]
     fn add(self, rhs: Vec3) -> Self {
         Self(self.0 + rhs)
     }
@@ -62,6 +67,7 @@ impl Add<Vec3> for Point {
 
 impl Sub<Vec3> for Point {
     type Output = Self;
+    #[inline]
     fn sub(self, rhs: Vec3) -> Self {
         Self(self.0 - rhs)
     }
@@ -97,12 +103,14 @@ macro_rules! unit_vector {
             }
 
             /// Wraps a vector that is a unit vector already (checked in debug builds to 0.1 %).
+            #[inline]
             pub fn new_unchecked(v: Vec3) -> Self {
                 debug_assert!((v.length_squared() - 1.0).abs() < 2e-3, "not a unit vector: {v:?}");
                 Self(v)
             }
 
             /// Cosine of the angle to `other`, which must be a unit vector.
+            #[inline]
             pub fn cos_to(self, other: impl Into<Vec3>) -> f32 {
                 self.0.dot(other.into())
             }
@@ -110,12 +118,14 @@ macro_rules! unit_vector {
 
         impl Deref for $T {
             type Target = Vec3;
+            #[inline]
             fn deref(&self) -> &Vec3 {
                 &self.0
             }
         }
 
         impl From<$T> for Vec3 {
+            #[inline]
             fn from(v: $T) -> Vec3 {
                 v.0
             }
@@ -123,6 +133,7 @@ macro_rules! unit_vector {
 
         impl Neg for $T {
             type Output = Self;
+            #[inline]
             fn neg(self) -> Self {
                 Self(-self.0)
             }
@@ -130,6 +141,7 @@ macro_rules! unit_vector {
 
         impl Mul<f32> for $T {
             type Output = Vec3;
+            #[inline]
             fn mul(self, rhs: f32) -> Vec3 {
                 self.0 * rhs
             }
@@ -142,6 +154,7 @@ unit_vector!(Normal);
 unit_vector!(LocalDir);
 
 impl From<Normal> for Dir {
+    #[inline]
     fn from(n: Normal) -> Self {
         Self(n.0)
     }
@@ -150,6 +163,7 @@ impl From<Normal> for Dir {
 impl Normal {
     /// This normal or its opposite, whichever lies in the hemisphere of `v`.
     #[must_use]
+    #[inline]
     pub fn facing(self, v: Vec3) -> Self {
         if self.0.dot(v) < 0.0 { -self } else { self }
     }
@@ -157,26 +171,31 @@ impl Normal {
 
 impl LocalDir {
     /// Cosine of the polar angle, signed: negative under the surface.
+    #[inline]
     pub fn cos_theta(self) -> f32 {
         self.0.z
     }
 
     /// |cos θ|.
+    #[inline]
     pub fn abs_cos_theta(self) -> f32 {
         self.0.z.abs()
     }
 
     /// cos² θ.
+    #[inline]
     pub fn cos2_theta(self) -> f32 {
         self.0.z * self.0.z
     }
 
     /// sin² θ, not below zero.
+    #[inline]
     pub fn sin2_theta(self) -> f32 {
         (1.0 - self.cos2_theta()).max(0.0)
     }
 
     /// Whether both directions lie strictly on the same side of the surface.
+    #[inline]
     pub fn same_hemisphere(self, other: Self) -> bool {
         self.0.z * other.0.z > 0.0
     }

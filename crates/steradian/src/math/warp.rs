@@ -7,17 +7,29 @@ use super::vector::{LocalDir, Vec2, Vec3};
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// Uniform on the unit disk, concentric map (Shirley & Chiu 1997). Density 1/π per unit area.
+#[inline]
 pub fn concentric_disk(u: Vec2) -> Vec2 {
     let o = 2.0 * u - Vec2::ONE;
     if o == Vec2::ZERO {
         return Vec2::ZERO;
     }
-    let (r, theta) = if o.x.abs() > o.y.abs() {
-        (o.x, FRAC_PI_4 * (o.y / o.x))
+    if o.x.abs() > o.y.abs() {
+        let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (o.y / o.x));
+        o.x * Vec2::new(cos, sin)
     } else {
-        (o.y, FRAC_PI_2 - FRAC_PI_4 * (o.x / o.y))
-    };
-    r * Vec2::new(theta.cos(), theta.sin())
+        // The angle is π/2 less this one.
+        let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (o.x / o.y));
+        o.y * Vec2::new(sin, cos)
+    }
+}
+
+/// Sine and cosine for |x| ≤ π/4 by their power series, to 3·10⁻⁸, without a call.
+#[inline]
+fn sin_cos_of_eighth(x: f32) -> (f32, f32) {
+    let x2 = x * x;
+    let sin = 1.0 / 6.0 - x2 * (1.0 / 120.0 - x2 * (1.0 / 5040.0 - x2 * (1.0 / 362_880.0)));
+    let cos = 0.5 - x2 * (1.0 / 24.0 - x2 * (1.0 / 720.0 - x2 * (1.0 / 40_320.0)));
+    (x - x * x2 * sin, 1.0 - x2 * cos)
 }
 
 /// Uniform on the unit disk, polar map: keeps u.y proportional to the angle.
@@ -27,12 +39,14 @@ pub fn polar_disk(u: Vec2) -> Vec2 {
 }
 
 /// Cosine-weighted on the upper hemisphere: a concentric disk lifted (Malley); B (2.37), (2.48), (2.49).
+#[inline]
 pub fn cosine_hemisphere(u: Vec2) -> LocalDir {
     let d = concentric_disk(u);
     LocalDir::new_unchecked(Vec3::new(d.x, d.y, safe_sqrt(1.0 - d.length_squared())))
 }
 
 /// cosθ/π [sr⁻¹] on the upper hemisphere, B (2.37).
+#[inline]
 pub fn cosine_hemisphere_pdf(cos_theta: f32) -> f32 {
     cos_theta.max(0.0) * FRAC_1_PI
 }
@@ -62,6 +76,7 @@ pub fn uniform_cone_pdf(one_minus_cos_max: f32) -> f32 {
 }
 
 /// Barycentric coordinates uniform over a triangle, low distortion (Heitz 2019).
+#[inline]
 pub fn uniform_triangle(u: Vec2) -> [f32; 3] {
     let (b0, b1) = if u.x < u.y {
         let b0 = u.x * 0.5;
@@ -158,6 +173,18 @@ mod tests {
 
     fn grid(n: u32) -> impl Iterator<Item = Vec2> {
         (0..n * n).map(move |i| Vec2::new((i % n) as f32 + 0.5, (i / n) as f32 + 0.5) / n as f32)
+    }
+
+    #[test]
+    fn the_series_agree_with_the_library() {
+        for i in -1000..=1000 {
+            let x = FRAC_PI_4 * i as f32 / 1000.0;
+            let ((sin, cos), exact) = (sin_cos_of_eighth(x), f64::from(x).sin_cos());
+            assert!(
+                (f64::from(sin) - exact.0).abs() < 1e-7 && (f64::from(cos) - exact.1).abs() < 1e-7,
+                "{x}"
+            );
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! get the same bits, in any order. Numbers lie in [0, 1).
 
 mod halton;
+mod independent;
 mod padded;
 mod position;
 mod scramble;
@@ -12,10 +13,10 @@ mod stratified;
 mod zsobol;
 
 use crate::math::Vec2;
-use crate::math::hash::to_unit;
 use position::Position;
 
 pub use halton::Halton;
+pub use independent::Independent;
 pub use padded::PaddedSobol;
 pub use scramble::Randomization;
 pub use stratified::Stratified;
@@ -58,12 +59,6 @@ pub enum Sampler {
     ZSobol(ZSobol),
 }
 
-/// Uniform, independent numbers by hashing.
-#[derive(Clone, Copy, Debug)]
-pub struct Independent {
-    at: Position,
-}
-
 impl Sampler {
     /// A sampler for pictures of `resolution` pixels with about `spp` samples per pixel.
     ///
@@ -71,7 +66,7 @@ impl Sampler {
     pub fn new(kind: SamplerKind, spp: u32, resolution: [u32; 2], seed: u64) -> Self {
         let at = Position::new(seed);
         match kind {
-            SamplerKind::Independent => Self::Independent(Independent { at }),
+            SamplerKind::Independent => Self::Independent(Independent::new(at)),
             SamplerKind::Stratified { x, y, jitter } => {
                 Self::Stratified(Stratified { at, x: x.max(1), y: y.max(1), jitter })
             }
@@ -82,9 +77,10 @@ impl Sampler {
     }
 
     /// Moves to the first dimension of sample `index` of `pixel`.
+    #[inline]
     pub fn start(&mut self, pixel: [i32; 2], index: u32) {
         match self {
-            Self::Independent(s) => s.at.start(pixel, index),
+            Self::Independent(s) => s.start(pixel, index),
             Self::Stratified(s) => s.at.start(pixel, index),
             Self::Halton(s) => s.start(pixel, index),
             Self::PaddedSobol(s) => s.at.start(pixel, index),
@@ -93,9 +89,19 @@ impl Sampler {
     }
 
     /// The next number; consumes one dimension.
+    #[inline]
     pub fn next_1d(&mut self) -> f32 {
         match self {
-            Self::Independent(s) => to_unit(s.at.next_sample_hash(1)),
+            Self::Independent(s) => s.next_1d(),
+            _ => self.next_1d_of_sequence(),
+        }
+    }
+
+    /// Out of line: a sequence's arithmetic is long, and there are many callers.
+    #[inline(never)]
+    fn next_1d_of_sequence(&mut self) -> f32 {
+        match self {
+            Self::Independent(s) => s.next_1d(),
             Self::Stratified(s) => s.next_1d(),
             Self::Halton(s) => s.next_1d(),
             Self::PaddedSobol(s) => s.next_1d(),
@@ -104,12 +110,19 @@ impl Sampler {
     }
 
     /// The next pair, stratified jointly; consumes two dimensions.
+    #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
         match self {
-            Self::Independent(s) => {
-                let h = s.at.next_sample_hash(2);
-                Vec2::new(to_unit(h), to_unit(h << 32))
-            }
+            Self::Independent(s) => s.next_2d(),
+            _ => self.next_2d_of_sequence(),
+        }
+    }
+
+    /// Out of line: a sequence's arithmetic is long, and there are many callers.
+    #[inline(never)]
+    fn next_2d_of_sequence(&mut self) -> Vec2 {
+        match self {
+            Self::Independent(s) => s.next_2d(),
             Self::Stratified(s) => s.next_2d(),
             Self::Halton(s) => s.next_2d(),
             Self::PaddedSobol(s) => s.next_2d(),
@@ -128,17 +141,14 @@ impl Sampler {
     }
 
     /// 64 random bits of this pixel, sample and dimension: the seed of a random walk; consumes one dimension.
+    #[inline]
     pub fn hash_seed(&mut self) -> u64 {
-        self.position().next_sample_hash(1)
-    }
-
-    fn position(&mut self) -> &mut Position {
         match self {
-            Self::Independent(s) => &mut s.at,
-            Self::Stratified(s) => &mut s.at,
-            Self::Halton(s) => &mut s.at,
-            Self::PaddedSobol(s) => &mut s.at,
-            Self::ZSobol(s) => &mut s.at,
+            Self::Independent(s) => s.next_word(),
+            Self::Stratified(s) => s.at.next_sample_hash(1),
+            Self::Halton(s) => s.at.next_sample_hash(1),
+            Self::PaddedSobol(s) => s.at.next_sample_hash(1),
+            Self::ZSobol(s) => s.at.next_sample_hash(1),
         }
     }
 }

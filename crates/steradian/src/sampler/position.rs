@@ -17,6 +17,7 @@ impl Position {
         Self { seed, index: 0, dimension: 0, pixel_hash: hash_words(&[seed]) }
     }
 
+    #[inline]
     pub(super) fn start(&mut self, pixel: [i32; 2], index: u32) {
         self.index = index;
         self.dimension = 0;

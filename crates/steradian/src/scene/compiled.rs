@@ -61,7 +61,7 @@ pub struct SceneLightSample {
 
 impl Scene {
     /// The first surface along the ray within `t_max` of its lengths.
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SceneHit> {
         let hit = self.accel.intersect(ray, t_max, &|c: &Candidate| self.admits(ray, c))?;
         let point = self.accel.surface(ray, &hit, &self.shapes);
@@ -71,6 +71,7 @@ impl Scene {
     }
 
     /// Whether something stands between a point and a light.
+    #[inline(always)]
     pub fn is_occluded(&self, from: &ReferencePoint, target: &LightTarget, wi: Dir) -> bool {
         let (ray, t_max) = match target {
             LightTarget::Infinite => (from.spawn(wi), f32::INFINITY),
@@ -85,6 +86,7 @@ impl Scene {
     }
 
     /// Whether there is no optical interface at a hit.
+    #[inline]
     pub fn passes_straight(&self, hit: &SceneHit) -> bool {
         self.materials.is_interface(hit.material)
     }
@@ -92,6 +94,7 @@ impl Scene {
     /// The scattering function at a hit; `None` where there is no optical interface.
     ///
     /// `seed` decides the random walks of layered materials.
+    #[inline(always)]
     pub fn shade(&self, hit: &SceneHit, wo: Dir, w: &mut Wavelengths, seed: u64) -> Option<SurfaceBsdf<'_>> {
         let used = self.materials.needs_footprint(hit.material);
         let footprint = if used { self.footprint(&hit.point) } else { Footprint::ZERO };
@@ -132,6 +135,7 @@ impl Scene {
     }
 
     /// One light, chosen at random, and a direction to it.
+    #[inline(always)]
     pub fn sample_light(
         &self,
         from: &ReferencePoint,

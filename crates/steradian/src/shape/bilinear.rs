@@ -157,7 +157,7 @@ impl Patch {
 
     fn point_at(&self, u: f64, v: f64) -> BoundedPoint {
         let c = self.corners_f64();
-        rounding::bounded(bilinear(c, u, v), bilinear(c.map(DVec3::abs), u, v))
+        rounding::bounded(bilinear(c, u, v), bilinear(c.map(DVec3::abs), u, v).as_vec3())
     }
 
     /// Directions to the corners in the order of (u, v), and the rectangle, if it is to be sampled by solid angle.

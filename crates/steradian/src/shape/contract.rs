@@ -35,6 +35,7 @@ impl ReferencePoint {
     }
 
     /// Origin of a ray that leaves towards `w`, off the surface where there is one.
+    #[inline]
     pub fn offset_origin(&self, w: crate::math::Vec3) -> Point {
         match self.ng {
             Some(n) => self.p.offset_origin(n, w),
@@ -43,11 +44,13 @@ impl ReferencePoint {
     }
 
     /// Ray that leaves in direction `w`.
+    #[inline]
     pub fn spawn(&self, w: Dir) -> Ray {
         Ray { o: self.offset_origin(*w), d: *w, time: self.time }
     }
 
     /// Ray towards `to`, where t = 1 is the target, off both surfaces.
+    #[inline]
     pub fn spawn_to(&self, to: &BoundedPoint, to_n: Option<Normal>) -> Ray {
         let o = self.offset_origin(to.p - self.p.p);
         let target = match to_n {
@@ -89,6 +92,7 @@ pub struct ShapeSampleToward {
 impl ShapeSample {
     /// Expresses the sample's density per solid angle at `from`; `None` when the point is seen edge-on or
     /// coincides with the reference point.
+    #[inline]
     pub fn toward(&self, from: &ReferencePoint) -> Option<ShapeSampleToward> {
         let to = self.p.p - from.p.p;
         let wi = Dir::new(to)?;

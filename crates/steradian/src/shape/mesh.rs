@@ -2,7 +2,7 @@
 
 use super::contract::{Orientation, PrimHit, ShapeError};
 use super::{rounding, validate};
-use crate::math::{Bounds3, Frame, Normal, Point, Shading, SurfacePoint, Transform, Vec2, Vec3, float};
+use crate::math::{Bounds3, Frame, Normal, Point, Shading, SurfacePoint, Transform, Vec2, Vec3};
 use glam::DVec3;
 
 /// What a triangle mesh is made of, in object space. Empty attribute arrays mean "not given".
@@ -118,11 +118,13 @@ impl TriangleMesh {
         [values[a as usize], values[b as usize], values[c as usize]]
     }
 
+    #[inline]
     fn corner_uvs(&self, triangle: u32) -> [Vec2; 3] {
         if self.uvs.is_empty() { DEFAULT_UVS } else { self.gather(&self.uvs, triangle) }
     }
 
     /// Texture coordinates at barycentric (b₁, b₂).
+    #[inline]
     pub fn uv_at(&self, triangle: u32, b: [f32; 2]) -> Vec2 {
         interpolate(self.corner_uvs(triangle), b)
     }
@@ -143,57 +145,56 @@ impl TriangleMesh {
 
     /// The geometric normal from the triangle's area vector.
     #[inline]
-    pub(super) fn oriented(&self, area_vector: DVec3, triangle: u32, b: [f32; 2]) -> Option<Normal> {
-        let n = rounding::normalized(area_vector)?;
+    fn oriented(&self, area_vector: DVec3, triangle: u32, b: [f32; 2]) -> Option<Normal> {
+        Some(self.outward(rounding::normalized(area_vector)?, triangle, b))
+    }
+
+    /// The normal `n` of the winding or its opposite, as the mesh has it.
+    #[inline(always)]
+    pub(super) fn outward(&self, n: Normal, triangle: u32, b: [f32; 2]) -> Normal {
         if !self.normals.is_empty() {
             let ns = interpolate(self.gather(&self.normals, triangle), b);
-            return Some(n.facing(ns));
+            return n.facing(ns);
         }
-        Some(if self.flip { -n } else { n })
+        if self.flip { -n } else { n }
     }
 
     /// The point at barycentric (b₁, b₂). It lies in the plane of the triangle but for the final rounding.
     pub fn point_at(&self, triangle: u32, b: [f32; 2]) -> crate::math::BoundedPoint {
-        blend(self.corners(triangle).map(|p| p.as_dvec3()), b)
+        Facet::new(self.corners(triangle)).point(b)
     }
 
     /// Differential geometry at a hit.
-    #[inline]
+    #[inline(always)]
     pub fn surface(&self, triangle: u32, hit: &PrimHit, time: f32) -> SurfacePoint {
         let b = [hit.u, hit.v];
-        let corners = self.corners(triangle).map(|p| p.as_dvec3());
-        let uvs = self.corner_uvs(triangle);
-        let (duv02, duv12) = (uvs[0] - uvs[2], uvs[1] - uvs[2]);
-        let (dp02, dp12) = (corners[0] - corners[2], corners[1] - corners[2]);
-        let area_vector = dp02.cross(dp12);
+        let facet = Facet::new(self.corners(triangle));
         // A triangle that can be hit has an area; the fallback keeps a misuse finite.
-        let ng = self.oriented(area_vector, triangle, b).unwrap_or(Normal::Z);
-        let (dpdu, dpdv) = uv_derivatives(duv02, duv12, dp02, dp12)
-            .map(|(du, dv)| (du.as_vec3(), dv.as_vec3()))
-            .filter(|(du, dv)| du.is_finite() && dv.is_finite() && du.cross(*dv).length_squared() > 0.0)
-            .unwrap_or_else(|| {
-                let frame = Frame::from_z(rounding::normalized(area_vector).unwrap_or(Normal::Z));
-                (frame.s, frame.t)
-            });
+        let ng = self.oriented(facet.area_vector(), triangle, b).unwrap_or(Normal::Z);
         let face = self.face_indices.get(triangle as usize).copied().unwrap_or(0);
-        let shading = self.shading(triangle, b, ng, dpdu, dpdv, duv02, duv12);
-        SurfacePoint { p: blend(corners, b), ng, uv: interpolate(uvs, b), dpdu, dpdv, shading, time, face }
+        let p = facet.point(b);
+        if self.uvs.is_empty() {
+            // What the general case makes of [`DEFAULT_UVS`].
+            let (dpdu, dpdv) = (facet.e1.as_vec3(), (facet.e2 - facet.e1).as_vec3());
+            let shading = self.shading(triangle, b, ng, dpdu, dpdv);
+            return SurfacePoint { p, ng, uv: Vec2::new(b[0] + b[1], b[1]), dpdu, dpdv, shading, time, face };
+        }
+        let uvs = self.gather(&self.uvs, triangle);
+        let (dpdu, dpdv) = parametrisation(uvs, &facet);
+        let shading = self.shading(triangle, b, ng, dpdu, dpdv);
+        SurfacePoint { p, ng, uv: interpolate(uvs, b), dpdu, dpdv, shading, time, face }
     }
 
-    #[inline]
-    fn shading(
-        &self,
-        triangle: u32,
-        b: [f32; 2],
-        ng: Normal,
-        dpdu: Vec3,
-        dpdv: Vec3,
-        duv02: Vec2,
-        duv12: Vec2,
-    ) -> Shading {
+    #[inline(always)]
+    fn shading(&self, triangle: u32, b: [f32; 2], ng: Normal, dpdu: Vec3, dpdv: Vec3) -> Shading {
         if self.normals.is_empty() && self.tangents.is_empty() {
             return Shading { n: ng, dpdu, dpdv, dndu: Vec3::ZERO, dndv: Vec3::ZERO };
         }
+        self.smooth_shading(triangle, b, ng, dpdu)
+    }
+
+    #[inline(never)]
+    fn smooth_shading(&self, triangle: u32, b: [f32; 2], ng: Normal, dpdu: Vec3) -> Shading {
         let n = self.shading_normal(triangle, b).unwrap_or(ng);
         let tangent = if self.tangents.is_empty() {
             dpdu
@@ -211,7 +212,7 @@ impl TriangleMesh {
         let (mut dndu, mut dndv) = (Vec3::ZERO, Vec3::ZERO);
         if !self.normals.is_empty() {
             let [n0, n1, n2] = self.gather(&self.normals, triangle).map(|n| n.as_dvec3());
-            match uv_derivatives(duv02, duv12, n0 - n2, n1 - n2) {
+            match uv_derivatives(self.corner_uvs(triangle), n1 - n0, n2 - n0) {
                 Some((du, dv)) => (dndu, dndv) = (du.as_vec3(), dv.as_vec3()),
                 // Without a parametrisation the change of the normal still has a plane, which is what a
                 // texture footprint needs (pbrt-v4 book, 6.5.3).
@@ -233,15 +234,51 @@ pub(super) fn cross([a, b, c]: [Point; 3]) -> DVec3 {
     (b.as_dvec3() - a).cross(c.as_dvec3() - a)
 }
 
-/// The point at barycentric (b₁, b₂) of the triangle.
-#[inline]
-pub(super) fn blend([p0, p1, p2]: [DVec3; 3], b: [f32; 2]) -> crate::math::BoundedPoint {
-    let (b1, b2) = (f64::from(b[0]), f64::from(b[1]));
-    let (t0, t1, t2) = (p0 * (1.0 - b1 - b2), p1 * b1, p2 * b2);
-    rounding::bounded(t0 + t1 + t2, t0.abs() + t1.abs() + t2.abs())
+/// A triangle by a corner and the edges that leave it, in f64.
+pub(super) struct Facet {
+    p0: DVec3,
+    e1: DVec3,
+    e2: DVec3,
+    /// Sum of the corners' absolute coordinates.
+    reach: Vec3,
+}
+
+impl Facet {
+    #[inline]
+    pub(super) fn new([a, b, c]: [Point; 3]) -> Self {
+        let p0 = a.as_dvec3();
+        Self { p0, e1: b.as_dvec3() - p0, e2: c.as_dvec3() - p0, reach: a.abs() + b.abs() + c.abs() }
+    }
+
+    /// Twice the area vector; points to the side from which the corners appear counter-clockwise.
+    #[inline]
+    pub(super) fn area_vector(&self) -> DVec3 {
+        self.e1.cross(self.e2)
+    }
+
+    /// The point at barycentric (b₁, b₂).
+    #[inline]
+    pub(super) fn point(&self, b: [f32; 2]) -> crate::math::BoundedPoint {
+        let p = self.p0 + self.e1 * f64::from(b[0]) + self.e2 * f64::from(b[1]);
+        // What is added up is a corner and two differences from it.
+        rounding::bounded(p, self.reach * 3.0)
+    }
+}
+
+/// ∂p/∂u and ∂p/∂v of a triangle; of some frame in its plane where its parametrisation is degenerate.
+#[inline(never)]
+fn parametrisation(uvs: [Vec2; 3], facet: &Facet) -> (Vec3, Vec3) {
+    uv_derivatives(uvs, facet.e1, facet.e2)
+        .map(|(du, dv)| (du.as_vec3(), dv.as_vec3()))
+        .filter(|(du, dv)| du.is_finite() && dv.is_finite() && du.cross(*dv).length_squared() > 0.0)
+        .unwrap_or_else(|| {
+            let frame = Frame::from_z(rounding::normalized(facet.area_vector()).unwrap_or(Normal::Z));
+            (frame.s, frame.t)
+        })
 }
 
 /// Value at barycentric (b₁, b₂) of corner values.
+#[inline]
 pub(super) fn interpolate<T>(v: [T; 3], b: [f32; 2]) -> T
 where
     T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T> + Copy,
@@ -249,17 +286,18 @@ where
     v[0] * (1.0 - b[0] - b[1]) + v[1] * b[0] + v[2] * b[1]
 }
 
-/// ∂x/∂u and ∂x/∂v of a linear quantity with differences `d02`, `d12` between corners; `None` when the
+/// ∂x/∂u and ∂x/∂v of a linear quantity that differs by `d1` and `d2` from the first corner to the others; `None` when the
 /// parametrisation is degenerate.
-fn uv_derivatives(duv02: Vec2, duv12: Vec2, d02: DVec3, d12: DVec3) -> Option<(DVec3, DVec3)> {
-    let determinant = float::difference_of_products(duv02.x, duv12.y, duv02.y, duv12.x);
+#[inline]
+fn uv_derivatives(uvs: [Vec2; 3], d1: DVec3, d2: DVec3) -> Option<(DVec3, DVec3)> {
+    let (a, b) = (uvs[1].as_dvec2() - uvs[0].as_dvec2(), uvs[2].as_dvec2() - uvs[0].as_dvec2());
+    let determinant = a.x * b.y - a.y * b.x;
     // The threshold of pbrt-v4, so that the same triangles lose their parametrisation.
     if determinant.abs() < 1e-9 {
         return None;
     }
-    let inv = 1.0 / f64::from(determinant);
-    let (a, b) = (duv02.as_dvec2(), duv12.as_dvec2());
-    Some(((d02 * b.y - d12 * a.y) * inv, (d12 * a.x - d02 * b.x) * inv))
+    let inv = 1.0 / determinant;
+    Some(((d1 * b.y - d2 * a.y) * inv, (d2 * a.x - d1 * b.x) * inv))
 }
 
 #[cfg(test)]

@@ -141,8 +141,17 @@ impl Shape {
     }
 
     /// Differential geometry where `ray` meets primitive `prim`.
-    #[inline]
+    #[inline(always)]
     pub fn surface(&self, prim: u32, ray: &Ray, hit: &PrimHit) -> SurfacePoint {
+        match self {
+            Self::Mesh(s) => s.surface(prim, hit, ray.time),
+            _ => self.surface_of_rarer(prim, ray, hit),
+        }
+    }
+
+    /// Out of line, so that meshes have the caller's loop for themselves.
+    #[inline(never)]
+    fn surface_of_rarer(&self, prim: u32, ray: &Ray, hit: &PrimHit) -> SurfacePoint {
         match self {
             Self::Mesh(s) => s.surface(prim, hit, ray.time),
             Self::Bilinear(s) => s.surface(prim, hit, ray.time),
@@ -180,7 +189,16 @@ impl Shape {
 
     /// Chooses a point of primitive `prim` for a reference point, by solid angle where the shape allows it;
     /// `None` when no usable direction results.
+    #[inline(always)]
     pub fn sample_toward(&self, prim: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
+        match self {
+            Self::Mesh(s) => s.sample_toward(prim, from, u),
+            _ => self.sample_toward_rarer(prim, from, u),
+        }
+    }
+
+    #[inline(never)]
+    fn sample_toward_rarer(&self, prim: u32, from: &ReferencePoint, u: Vec2) -> Option<ShapeSampleToward> {
         match self {
             Self::Mesh(s) => s.sample_toward(prim, from, u),
             Self::Bilinear(s) => s.sample_toward(prim, from, u),

@@ -89,7 +89,7 @@ impl Placement {
     pub(super) fn bounded_point(&self, p: DVec3) -> BoundedPoint {
         let m = &self.render_from_object;
         let abs = m.matrix3.abs();
-        rounding::bounded(self.render_point(p), abs * p.abs() + m.translation.abs())
+        rounding::bounded(self.render_point(p), (abs * p.abs() + m.translation.abs()).as_vec3())
     }
 
     /// The oriented render-space normal of an object-space normal; `None` when it has no length.

@@ -1,15 +1,16 @@
 //! Points computed in f64 and stored in f32, with bounds on what the storing loses.
 
-use crate::math::{BoundedPoint, Normal, Point, float};
+use crate::math::{BoundedPoint, Normal, Point, Vec3, float};
 use glam::DVec3;
 
 /// Rounds `p` to f32. `magnitude` bounds the absolute values that were added up per axis on the way to `p`:
 /// where they cancel, the error of f64 outweighs that of the rounding.
-pub(super) fn bounded(p: DVec3, magnitude: DVec3) -> BoundedPoint {
+#[inline]
+pub(super) fn bounded(p: DVec3, magnitude: Vec3) -> BoundedPoint {
     // 64 f64 operations are more than any shape here spends on a coordinate.
-    const F64_ERROR: f64 = 64.0 * f64::EPSILON;
+    const F64_ERROR: f32 = 64.0 * f64::EPSILON as f32;
     let rounded = p.as_vec3();
-    let error = rounded.abs() * float::gamma(2) + (magnitude * F64_ERROR).as_vec3();
+    let error = rounded.abs() * float::gamma(2) + magnitude * F64_ERROR;
     BoundedPoint { p: Point(rounded), error }
 }
 
@@ -22,5 +23,10 @@ pub(super) fn normalized(v: DVec3) -> Option<Normal> {
     if (1e-24..1e24).contains(&squared) {
         return Some(Normal::new_unchecked(rounded * (1.0 / squared.sqrt())));
     }
+    normalized_far_out(v)
+}
+
+#[cold]
+fn normalized_far_out(v: DVec3) -> Option<Normal> {
     Some(Normal::new_unchecked(v.try_normalize()?.as_vec3()))
 }

@@ -216,7 +216,10 @@ impl Sphere {
         let n = frame.s.as_dvec3() * (-sin_alpha * cos_phi) + frame.t.as_dvec3() * (-sin_alpha * sin_phi)
             - axis * cos_alpha;
         let n = n.try_normalize()?;
-        let p = rounding::bounded(cone.center + n * cone.radius, cone.center.abs() + n.abs() * cone.radius);
+        let p = rounding::bounded(
+            cone.center + n * cone.radius,
+            (cone.center.abs() + n.abs() * cone.radius).as_vec3(),
+        );
         let object = self.placement.object_point(p.p);
         let object = object * (self.radius / object.length());
         Some(ShapeSampleToward {

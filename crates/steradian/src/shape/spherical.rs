@@ -1,8 +1,8 @@
 //! Uniform sampling of spherical triangles and spherical rectangles.
 //!
-//! Everything is computed in f64: the constructions subtract nearly equal angles when the polygon is small.
+//! Rectangles are computed in f64: the construction subtracts nearly equal angles when they are small.
 
-use crate::math::{Point, Vec2};
+use crate::math::{Dir, Point, Vec2, Vec3};
 use glam::DVec3;
 
 /// A point of a rectangle chosen uniformly in solid angle.
@@ -19,12 +19,11 @@ fn to_f64(p: Point) -> DVec3 {
 }
 
 /// Solid angle of the spherical triangle with unit corners a, b, c [sr] (van Oosterom & Strackee 1983).
-///
-/// Correct to the relative precision of f32: only the arctangent is taken in it, which does not cancel.
-pub(super) fn triangle_solid_angle(corners: [DVec3; 3]) -> f64 {
-    let [a, b, c] = corners;
-    let (y, x) = (a.dot(b.cross(c)), 1.0 + a.dot(b) + a.dot(c) + b.dot(c));
-    f64::from(2.0 * (y.abs() as f32).atan2(x as f32))
+pub(super) fn triangle_solid_angle([a, b, c]: [Vec3; 3]) -> f32 {
+    // The triple product of edges instead of corners, which are nearly parallel in small triangles.
+    let y = a.dot((b - a).cross(c - a));
+    let x = 1.0 + a.dot(b) + a.dot(c) + b.dot(c);
+    2.0 * y.abs().atan2(x)
 }
 
 /// Unit directions from `from` to the corners; `None` when `from` is one of them.
@@ -38,28 +37,30 @@ pub(super) fn directions_to<const N: usize>(corners: [Point; N], from: Point) ->
 }
 
 /// A triangle as seen from a point.
+///
+/// In f32: it is constructed for triangles that fill a fair part of the view only.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SphericalTriangle {
     /// From the point to the corners.
-    offsets: [DVec3; 3],
+    offsets: [Vec3; 3],
     /// Unit directions to the corners.
-    pub(super) corners: [DVec3; 3],
+    pub(super) corners: [Vec3; 3],
     /// Solid angle [sr].
-    pub(super) solid_angle: f64,
+    pub(super) solid_angle: f32,
 }
 
 impl SphericalTriangle {
     /// The triangle with corners at `offsets` from the point; `None` when one of them is zero.
     #[inline]
-    pub(super) fn new(offsets: [DVec3; 3]) -> Option<Self> {
+    pub(super) fn new(offsets: [Vec3; 3]) -> Option<Self> {
         let [a, b, c] = offsets;
-        let corners = [a.try_normalize()?, b.try_normalize()?, c.try_normalize()?];
+        let corners = [*Dir::new(a)?, *Dir::new(b)?, *Dir::new(c)?];
         Some(Self { offsets, corners, solid_angle: triangle_solid_angle(corners) })
     }
 
     /// Chooses a direction uniformly within the triangle (Arvo 1995) and returns barycentric (b₁, b₂) of the point
     /// of the triangle there; `None` when the triangle degenerates to an arc or a point.
-    pub(super) fn sample(&self, u: Vec2) -> Option<[f64; 2]> {
+    pub(super) fn sample(&self, u: Vec2) -> Option<[f32; 2]> {
         let [a, b, c] = self.corners;
         // Arvo's inner angle α at a enters by sine and cosine alone: (a×b)·(a×c) and |(a×b)×(a×c)| = |a·(b×c)|.
         let (ab, ac) = (a.cross(b), a.cross(c));
@@ -70,8 +71,7 @@ impl SphericalTriangle {
         }
         // The sub-triangle with the fraction u.x of the area shares the edge ab; its third corner c′ lies on ac.
         // Its sine and cosine − 1 by those of half of it: the f32 functions then err as a slightly different u.x would.
-        let (sin_half, cos_half) = (0.5 * u.x * self.solid_angle as f32).sin_cos();
-        let (sin_half, cos_half) = (f64::from(sin_half), f64::from(cos_half));
+        let (sin_half, cos_half) = (0.5 * u.x * self.solid_angle).sin_cos();
         let unit = 2.0 / (sin_half * sin_half + cos_half * cos_half);
         let (sin_area, cos_area_less_1) = (unit * sin_half * cos_half, -unit * sin_half * sin_half);
         // Sine and cosine of the difference of that area and α, and how far the latter is from cos α.
@@ -85,15 +85,15 @@ impl SphericalTriangle {
         // Unit vectors orthogonal to the ends of arcs are never formed: their lengths, sines, join the other factors.
         let sines = ((1.0 - cos_b * cos_b) / ac.length_squared()).sqrt();
         let c_sub = a * cos_b + (c - a * a.dot(c)) * sines;
-        // Along the arc from b to c′ the density is uniform in the cosine.
+        // Along the arc from b to c′ the density is uniform in the cosine; 1 − cos by the chord, which does not cancel.
         let cos_arc = c_sub.dot(b);
-        let one_minus_cos = f64::from(u.y) * (1.0 - cos_arc);
-        let sines = (f64::from(u.y) * (2.0 - one_minus_cos) / (1.0 + cos_arc)).sqrt();
+        let one_minus_cos = u.y * 0.5 * (c_sub - b).length_squared();
+        let sines = (u.y * (2.0 - one_minus_cos) / (1.0 + cos_arc)).sqrt();
         self.barycentric(b * (1.0 - one_minus_cos) + (c_sub - b * cos_arc) * sines)
     }
 
     /// Barycentric (b₁, b₂) of the point of the triangle in direction `w`, kept inside the triangle.
-    fn barycentric(&self, w: DVec3) -> Option<[f64; 2]> {
+    fn barycentric(&self, w: Vec3) -> Option<[f32; 2]> {
         let [p0, p1, p2] = self.offsets;
         let (e1, e2) = (p1 - p0, p2 - p0);
         let s1 = w.cross(e2);
@@ -110,18 +110,18 @@ impl SphericalTriangle {
     }
 
     /// The sample u that [`SphericalTriangle::sample`] maps to direction `w`, a unit vector through the triangle.
-    pub(super) fn invert(&self, w: DVec3) -> Option<Vec2> {
+    pub(super) fn invert(&self, w: Vec3) -> Option<Vec2> {
         let [a, b, c] = self.corners;
         // c′ is where the great circle through b and w meets the edge ac.
-        let mut c_sub = b.cross(w).cross(c.cross(a)).try_normalize()?;
+        let mut c_sub = *Dir::new(b.cross(w).cross(c.cross(a)))?;
         if c_sub.dot(a + c) < 0.0 {
             c_sub = -c_sub;
         }
-        let area = self.solid_angle;
-        let x = if area > 0.0 { triangle_solid_angle([a, b, c_sub]) / area } else { 0.0 };
-        let span = 1.0 - c_sub.dot(b);
-        let y = if span > 0.0 { (1.0 - w.dot(b)) / span } else { 0.0 };
-        Some(Vec2::new(x.clamp(0.0, 1.0) as f32, y.clamp(0.0, 1.0) as f32))
+        let x =
+            if self.solid_angle > 0.0 { triangle_solid_angle([a, b, c_sub]) / self.solid_angle } else { 0.0 };
+        let span = (c_sub - b).length_squared();
+        let y = if span > 0.0 { (w - b).length_squared() / span } else { 0.0 };
+        Some(Vec2::new(x.clamp(0.0, 1.0), y.clamp(0.0, 1.0)))
     }
 }
 
@@ -204,7 +204,6 @@ pub(super) fn invert_rectangle(corner: Point, edges: [DVec3; 2], from: Point, at
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Vec3;
 
     fn grid(n: u32) -> impl Iterator<Item = Vec2> {
         (0..n * n).map(move |i| Vec2::new((i % n) as f32 + 0.5, (i / n) as f32 + 0.5) / n as f32)
@@ -216,8 +215,8 @@ mod tests {
 
     #[test]
     fn an_octant_subtends_half_pi() {
-        let octant = [DVec3::X, DVec3::Y, DVec3::Z];
-        assert!((triangle_solid_angle(octant) - std::f64::consts::FRAC_PI_2).abs() < 2e-7);
+        let octant = [Vec3::X, Vec3::Y, Vec3::Z];
+        assert!((triangle_solid_angle(octant) - std::f32::consts::FRAC_PI_2).abs() < 2e-7);
         // One face of a cube seen from its centre: 4π/6.
         let face = rectangle_solid_angle(
             Point::new(-1.0, -1.0, 1.0),
@@ -237,7 +236,7 @@ mod tests {
         };
         let (e1, e2) = (to_f64(v[1]) - to_f64(v[0]), to_f64(v[2]) - to_f64(v[0]));
         let n = e1.cross(e2);
-        let seen = SphericalTriangle::new(v.map(|p| to_f64(p) - to_f64(from))).unwrap();
+        let seen = SphericalTriangle::new(v.map(|p| p - from)).unwrap();
         let f = |b: [f64; 2]| DVec3::new(b[0], b[1] * b[1], b[0] * b[1]);
         let k = 200;
         let (mut quadrature, mut omega) = (DVec3::ZERO, 0.0);
@@ -252,12 +251,12 @@ mod tests {
             let weight = 0.5 * (q.dot(n)).abs() / q.length().powi(3) / f64::from(k * k);
             quadrature += f([x, y]) * weight;
             omega += weight;
-            let at = seen.sample(u).unwrap();
+            let at = seen.sample(u).unwrap().map(f64::from);
             sampled += f(at) / f64::from(k * k);
-            let back = seen.invert(p(at).normalize()).unwrap();
+            let back = seen.invert(p(at).normalize().as_vec3()).unwrap();
             assert!((back - u).abs().max_element() < 1e-4, "{u} {back}");
         }
-        let expected = seen.solid_angle;
+        let expected = f64::from(seen.solid_angle);
         assert!((omega / expected - 1.0).abs() < 1e-4, "{omega} {expected}");
         assert!((sampled - quadrature / omega).abs().max_element() < 1e-4, "{sampled} {quadrature}");
     }

@@ -1,6 +1,7 @@
 //! CIE 1931 2° colour matching functions, 360–830 nm at 1 nm, linear in between, zero outside.
 
-use super::sampled::{LAMBDA_MAX, LAMBDA_MIN};
+use super::sampled::{LAMBDA_MAX, LAMBDA_MIN, Wavelengths};
+use glam::Vec4;
 
 /// ∫ ȳ dλ [nm]: the constant by which tristimulus values are normalised to Y = 1 for l ≡ 1.
 ///
@@ -10,11 +11,35 @@ pub const Y_INTEGRAL: f32 = 106.856_895;
 /// Number of entries of the tables: one per nanometre, both ends included.
 pub const SAMPLES: usize = 471;
 
-static MATCHING: [[f32; 3]; SAMPLES] = include!("../../data/cie_1931_2deg.rs");
+const MATCHING: [[f32; 3]; SAMPLES] = include!("../../data/cie_1931_2deg.rs");
 
 /// x̄, ȳ, z̄ at `LAMBDA_MIN` + i nanometres, for i = 0 … 470.
 pub fn table() -> &'static [[f32; 3]; SAMPLES] {
-    &MATCHING
+    static TABLE: [[f32; 3]; SAMPLES] = MATCHING;
+    &TABLE
+}
+
+/// The tables with a fourth column of zeros: a row is one load.
+static ROWS: [[f32; 4]; SAMPLES] = {
+    let mut rows = [[0.0; 4]; SAMPLES];
+    let mut i = 0;
+    while i < SAMPLES {
+        rows[i] = [MATCHING[i][0], MATCHING[i][1], MATCHING[i][2], 0.0];
+        i += 1;
+    }
+    rows
+};
+
+/// x̄, ȳ, z̄ and 0 at the wavelength `lane`.
+#[inline]
+pub(crate) fn bars_at(w: &Wavelengths, lane: usize) -> Vec4 {
+    match w.row(lane).and_then(|(i, t)| Some((ROWS.get(i..i + 2)?, t))) {
+        Some((&[a, b], t)) => {
+            let (a, b) = (Vec4::from_array(a), Vec4::from_array(b));
+            a + (b - a) * t
+        }
+        _ => Vec4::ZERO,
+    }
 }
 
 /// x̄, ȳ and z̄ at `lambda` [nm].
@@ -25,8 +50,8 @@ pub fn bars(lambda: f32) -> [f32; 3] {
     let x = lambda - LAMBDA_MIN;
     let i = (x as i32 as usize).min(SAMPLES - 2);
     let t = x - i as f32;
-    let (a, b) = (MATCHING[i], MATCHING[i + 1]);
-    std::array::from_fn(|c| a[c] * (1.0 - t) + b[c] * t)
+    let (a, b) = (ROWS[i], ROWS[i + 1]);
+    std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t)
 }
 
 /// Colour matching function x̄ at `lambda` [nm].
@@ -47,7 +72,7 @@ pub fn z_bar(lambda: f32) -> f32 {
 /// ∫ f ȳ dλ for a function of wavelength [nm]; the sum over the table at 1 nm, as the CIE prescribes.
 pub fn luminous_integral(mut f: impl FnMut(f32) -> f32) -> f32 {
     let mut sum = 0.0_f64;
-    for (i, row) in MATCHING.iter().enumerate() {
+    for (i, row) in table().iter().enumerate() {
         sum += f64::from(f(LAMBDA_MIN + i as f32)) * f64::from(row[1]);
     }
     sum as f32
@@ -56,7 +81,7 @@ pub fn luminous_integral(mut f: impl FnMut(f32) -> f32) -> f32 {
 /// ∫ f x̄, f ȳ, f z̄ dλ [nm·unit of f], by the sum over the table at 1 nm.
 pub fn tristimulus_integral(mut f: impl FnMut(f32) -> f32) -> [f64; 3] {
     let mut sum = [0.0_f64; 3];
-    for (i, row) in MATCHING.iter().enumerate() {
+    for (i, row) in table().iter().enumerate() {
         let v = f64::from(f(LAMBDA_MIN + i as f32));
         for (s, &bar) in sum.iter_mut().zip(row) {
             *s += v * f64::from(bar);

@@ -40,20 +40,32 @@ impl Spectrum {
     }
 
     /// The values at the wavelengths of a path, as the quantity that the caller knows them to be.
+    #[inline(always)]
     pub fn sample<Q>(&self, w: &Wavelengths) -> Sampled<Q> {
         let l = w.lambda();
         match self {
             Self::Constant(v) => Sampled::splat(*v),
-            Self::Tabulated(t) => Sampled::from_array(at_each(l, |l| t.at(l))),
-            Self::Dense(d) => Sampled::from_array(at_each(l, |l| d.at(l))),
-            Self::Blackbody(b) => Sampled::from_array(at_each(l, |l| b.at(l))),
+            Self::Dense(d) => Sampled::from_array(d.sample(w)),
             Self::RgbAlbedo(r) => Sampled::from_array(at_each(l, |l| r.sigmoid.at(l))),
-            Self::RgbUnbounded(r) => Sampled::from_array(at_each(l, |l| r.at(l))),
+            _ => Sampled::from_array(self.sample_rarer(w)),
+        }
+    }
+
+    /// [`Spectrum::sample`] for the kinds that are not worth their room in every caller.
+    #[inline(never)]
+    fn sample_rarer(&self, w: &Wavelengths) -> [f32; LANES] {
+        let l = w.lambda();
+        match self {
+            Self::Constant(_) | Self::Dense(_) | Self::RgbAlbedo(_) => at_each(l, |l| self.at(l)),
+            Self::Tabulated(t) => at_each(l, |l| t.at(l)),
+            Self::Blackbody(b) => at_each(l, |l| b.at(l)),
+            Self::RgbUnbounded(r) => at_each(l, |l| r.at(l)),
             Self::RgbIlluminant(r) => {
                 // Apart, because the table's gathers would keep the filter's arithmetic from being vectorised.
                 let filter = at_each(l, |l| r.scale * r.sigmoid.at(l));
-                let white = at_each(l, |l| r.illuminant.at(l));
-                Sampled::from_fn(|i| filter[i] * white[i])
+                let mut out = r.illuminant.sample(w);
+                out.iter_mut().zip(filter).for_each(|(white, filter)| *white *= filter);
+                out
             }
         }
     }

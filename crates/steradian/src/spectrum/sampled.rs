@@ -17,28 +17,70 @@ pub const LAMBDA_MAX: f32 = 830.0;
 pub struct Wavelengths {
     lambda: [f32; LANES],
     pdf: [f32; LANES],
+    /// Where the wavelengths lie among the nanometres of the default range, so that tables at 1 nm need not ask again: the
+    /// number of the interval, [`OUTSIDE`] it beyond the range, and the fraction of it.
+    cell: [u32; LANES],
+    fraction: [f32; LANES],
     terminated: bool,
 }
+
+/// The interval of a wavelength outside of the default range: no table has that many entries.
+const OUTSIDE: u32 = 1 << 30;
 
 impl Wavelengths {
     /// Wavelengths distributed like the eye's sensitivity over 360–830 nm, stratified by one u in [0, 1).
     ///
     /// Density 0.0039398042 / cosh²(0.0072 (λ − 538)) (Radziszewski et al. 2009; constants as in pbrt-v4 book, 4.5.4).
+    #[inline]
     pub fn sample_visible(u: f32) -> Self {
-        let mut s = Self { lambda: [0.0; LANES], pdf: [0.0; LANES], terminated: false };
+        let (mut lambda, mut pdf) = ([0.0; LANES], [0.0; LANES]);
         for i in 0..LANES {
-            let mut up = u + i as f32 / LANES as f32;
-            if up >= 1.0 {
-                up -= 1.0;
-            }
+            let up = u + i as f32 / LANES as f32;
+            let up = if up >= 1.0 { up - 1.0 } else { up };
             let x = 0.856_910_62 - 1.827_502_0 * up;
-            // atanh x = ½ ln((1 + x)/(1 − x)); |x| < 0.98.
-            let atanh = 0.5 * ((1.0 + x) / (1.0 - x)).ln();
-            s.lambda[i] = (538.0 - 138.888_889 * atanh).clamp(LAMBDA_MIN, LAMBDA_MAX);
+            lambda[i] = (538.0 - 138.888_889 * atanh(x)).clamp(LAMBDA_MIN, LAMBDA_MAX);
             // [`Wavelengths::visible_pdf`], by 1/cosh² = 1 − tanh².
-            s.pdf[i] = 0.003_939_804_2 * (1.0 - x * x);
+            pdf[i] = 0.003_939_804_2 * (1.0 - x * x);
         }
-        s
+        Self::new(lambda, pdf)
+    }
+
+    #[inline]
+    fn new(lambda: [f32; LANES], pdf: [f32; LANES]) -> Self {
+        let (mut cell, mut fraction) = ([0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            let x = lambda[i] - LAMBDA_MIN;
+            // The end of the range belongs to the last interval.
+            let floor = (x as i32).min((LAMBDA_MAX - LAMBDA_MIN) as i32 - 1);
+            let inside = (0.0..=LAMBDA_MAX - LAMBDA_MIN).contains(&x);
+            cell[i] = if inside { floor as u32 } else { OUTSIDE };
+            fraction[i] = x - floor as f32;
+        }
+        Self { lambda, pdf, cell, fraction, terminated: false }
+    }
+
+    /// Values at the wavelengths, linear between those of a table at 360, 361, … 830 nm; zero outside.
+    #[inline(always)]
+    pub(super) fn look_up(&self, table: &[f32]) -> [f32; LANES] {
+        let (mut low, mut high) = ([0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            let at = self.cell[i] as usize;
+            if let Some(&[a, b]) = table.get(at..at + 2) {
+                (low[i], high[i]) = (a, b);
+            }
+        }
+        let mut out = [0.0; LANES];
+        for i in 0..LANES {
+            out[i] = low[i] + self.fraction[i] * (high[i] - low[i]);
+        }
+        out
+    }
+
+    /// The wavelength `lane` among the rows of a table at 360, 361, … 830 nm: the row before it and how far beyond that
+    /// row it lies; `None` outside.
+    #[inline]
+    pub(crate) fn row(&self, lane: usize) -> Option<(usize, f32)> {
+        (self.cell[lane] != OUTSIDE).then(|| (self.cell[lane] as usize, self.fraction[lane]))
     }
 
     /// Density of [`Wavelengths::sample_visible`] [nm⁻¹]; zero outside 360–830 nm.
@@ -54,26 +96,29 @@ impl Wavelengths {
     pub fn sample_uniform(u: f32, min: f32, max: f32) -> Self {
         let range = max - min;
         let lambda = std::array::from_fn(|i| min + range * (u + i as f32 / LANES as f32).fract());
-        Self { lambda, pdf: [1.0 / range; LANES], terminated: false }
+        Self::new(lambda, [1.0 / range; LANES])
     }
 
     /// The given wavelengths [nm], for measurements; their densities mean nothing.
     pub fn exactly(lambda: [f32; LANES]) -> Self {
-        Self { lambda, pdf: [1.0; LANES], terminated: false }
+        Self::new(lambda, [1.0; LANES])
     }
 
     /// The wavelengths [nm]; the first is the hero.
+    #[inline]
     pub fn lambda(&self) -> &[f32; LANES] {
         &self.lambda
     }
 
     /// Densities [nm⁻¹]; zero for companions that were dropped.
+    #[inline]
     pub fn pdf(&self) -> &[f32; LANES] {
         &self.pdf
     }
 
     /// Drops the companions when the path becomes dispersive: only the hero still contributes,
     /// with its density divided by the number of lanes that it now stands for.
+    #[inline]
     pub fn terminate_companions(&mut self) {
         if self.terminated {
             return;
@@ -84,9 +129,24 @@ impl Wavelengths {
     }
 
     /// Whether the companions were dropped.
+    #[inline]
     pub fn companions_terminated(&self) -> bool {
         self.terminated
     }
+}
+
+/// atanh x = ½ ln((1 + x)/(1 − x)) for |x| < 0.99, to 10⁻⁶, without a call, so that all lanes are computed at once.
+#[inline]
+fn atanh(x: f32) -> f32 {
+    const HALF_LN_2: f32 = 0.346_573_6;
+    let ratio = (1.0 + x) / (1.0 - x);
+    // ratio = 2^e m with m in [√½, √2): what is left for the series is small.
+    let e = (ratio.to_bits().wrapping_sub(0x3f35_04f3) as i32) >> 23;
+    let m = f32::from_bits(ratio.to_bits().wrapping_sub((e << 23) as u32));
+    // ½ ln m = atanh t = t + t³/3 + t⁵/5 + …, |t| < 0.172.
+    let t = (m - 1.0) / (m + 1.0);
+    let t2 = t * t;
+    e as f32 * HALF_LN_2 + t * (1.0 + t2 * (1.0 / 3.0 + t2 * (1.0 / 5.0 + t2 * (1.0 / 7.0))))
 }
 
 /// Values of the quantity `Q` at the wavelengths of one path.
@@ -97,6 +157,7 @@ pub struct Sampled<Q> {
 }
 
 impl<Q> Clone for Sampled<Q> {
+    #[inline]
     fn clone(&self) -> Self {
         *self
     }
@@ -127,11 +188,13 @@ impl<Q> Sampled<Q> {
     pub const ZERO: Self = Self::splat(0.0);
 
     /// The same value at every wavelength.
+    #[inline]
     pub const fn splat(x: f32) -> Self {
         Self { v: [x; LANES], tag: PhantomData }
     }
 
     /// From one value per wavelength.
+    #[inline]
     pub const fn from_array(v: [f32; LANES]) -> Self {
         Self { v, tag: PhantomData }
     }
@@ -148,6 +211,7 @@ impl<Q> Sampled<Q> {
     }
 
     /// The values, one per wavelength.
+    #[inline]
     pub const fn to_array(self) -> [f32; LANES] {
         self.v
     }
@@ -160,37 +224,46 @@ impl<Q> Sampled<Q> {
     }
 
     /// The same numbers as another quantity. Each use is a change of unit and deserves its reason.
+    #[inline]
     pub const fn cast<R>(self) -> Sampled<R> {
         Sampled::from_array(self.v)
     }
 
     /// Largest value.
+    #[inline]
     pub fn max(self) -> f32 {
-        self.v.iter().fold(f32::NEG_INFINITY, |a, &b| a.max(b))
+        // A comparison each, where `f32::max` takes four: NaN is passed over either way.
+        self.v.iter().fold(f32::NEG_INFINITY, |a, &b| if b > a { b } else { a })
     }
 
     /// Smallest value.
+    #[inline]
     pub fn min(self) -> f32 {
         self.v.iter().fold(f32::INFINITY, |a, &b| a.min(b))
     }
 
     /// Mean over the wavelengths.
+    #[inline]
     pub fn mean(self) -> f32 {
         self.v.iter().sum::<f32>() / LANES as f32
     }
 
     /// Whether the value is zero at every wavelength. NaN is not zero.
+    #[inline]
     pub fn is_zero(self) -> bool {
-        self.v.iter().all(|&x| x == 0.0)
+        // Without branches: all lanes at once.
+        self.v.iter().fold(true, |all, &x| all & (x == 0.0))
     }
 
     /// Whether every value is finite.
+    #[inline]
     pub fn is_finite(self) -> bool {
         self.v.iter().all(|x| x.is_finite())
     }
 
     /// Limits every value to [lo, hi].
     #[must_use]
+    #[inline]
     pub fn clamp(self, lo: f32, hi: f32) -> Self {
         self.map(|x| x.clamp(lo, hi))
     }
@@ -209,11 +282,13 @@ impl Sampled<Unitless> {
 
 impl Sampled<PerSteradian> {
     /// f·|cosθ|/p: the weight of a direction drawn with density p, B (2.27).
+    #[inline]
     pub fn weight(self, abs_cos: f32, pdf: PdfSolidAngle) -> Sampled<Unitless> {
         (self * (abs_cos / pdf.0)).cast()
     }
 
     /// f·|cosθ|·L/p: one sample of the directional integral of reflected radiance, A (31), B (2.26).
+    #[inline]
     pub fn reflect(self, radiance: Sampled<Radiance>, abs_cos: f32, pdf: PdfSolidAngle) -> Sampled<Radiance> {
         self.weight(abs_cos, pdf) * radiance
     }
@@ -221,6 +296,7 @@ impl Sampled<PerSteradian> {
 
 impl<Q> Index<usize> for Sampled<Q> {
     type Output = f32;
+    #[inline]
     fn index(&self, lane: usize) -> &f32 {
         &self.v[lane]
     }
@@ -228,12 +304,14 @@ impl<Q> Index<usize> for Sampled<Q> {
 
 impl<Q> Add for Sampled<Q> {
     type Output = Self;
+    #[inline]
     fn add(self, rhs: Self) -> Self {
         Self::from_fn(|i| self.v[i] + rhs.v[i])
     }
 }
 
 impl<Q> AddAssign for Sampled<Q> {
+    #[inline]
     fn add_assign(&mut self, rhs: Self) {
         *self = *self + rhs;
     }
@@ -241,6 +319,7 @@ impl<Q> AddAssign for Sampled<Q> {
 
 impl<Q> Sub for Sampled<Q> {
     type Output = Self;
+    #[inline]
     fn sub(self, rhs: Self) -> Self {
         Self::from_fn(|i| self.v[i] - rhs.v[i])
     }
@@ -248,6 +327,7 @@ impl<Q> Sub for Sampled<Q> {
 
 impl<Q> Mul<f32> for Sampled<Q> {
     type Output = Self;
+    #[inline]
     fn mul(self, rhs: f32) -> Self {
         self.map(|x| x * rhs)
     }
@@ -255,6 +335,7 @@ impl<Q> Mul<f32> for Sampled<Q> {
 
 impl<Q> Div<f32> for Sampled<Q> {
     type Output = Self;
+    #[inline]
     fn div(self, rhs: f32) -> Self {
         self.map(|x| x / rhs)
     }
@@ -263,12 +344,14 @@ impl<Q> Div<f32> for Sampled<Q> {
 /// A ratio times a quantity is that quantity.
 impl<Q> Mul<Sampled<Q>> for Sampled<Unitless> {
     type Output = Sampled<Q>;
+    #[inline]
     fn mul(self, rhs: Sampled<Q>) -> Sampled<Q> {
         Sampled::from_fn(|i| self.v[i] * rhs.v[i])
     }
 }
 
 impl MulAssign for Sampled<Unitless> {
+    #[inline]
     fn mul_assign(&mut self, rhs: Self) {
         *self = *self * rhs;
     }
@@ -276,6 +359,7 @@ impl MulAssign for Sampled<Unitless> {
 
 impl Div for Sampled<Unitless> {
     type Output = Self;
+    #[inline]
     fn div(self, rhs: Self) -> Self {
         Self::from_fn(|i| self.v[i] / rhs.v[i])
     }

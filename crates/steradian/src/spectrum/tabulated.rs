@@ -1,7 +1,11 @@
 //! Spectra given by samples: sparse and piecewise linear, or dense at 1 nm.
 
+use super::sampled::{LAMBDA_MAX, LAMBDA_MIN, LANES, Wavelengths};
 use std::sync::Arc;
 use thiserror::Error;
+
+/// Entries of a table at 1 nm over the default range.
+const NANOMETRES: usize = (LAMBDA_MAX - LAMBDA_MIN) as usize + 1;
 
 /// Why pairs of wavelength and value do not define a spectrum.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -214,6 +218,15 @@ impl Dense {
         let i = i as usize;
         let a = self.value[i];
         a + t * (self.value[(i + 1).min(last)] - a)
+    }
+
+    /// [`Dense::at`] for the wavelengths of a path.
+    #[inline(always)]
+    pub(super) fn sample(&self, w: &Wavelengths) -> [f32; LANES] {
+        if self.start == LAMBDA_MIN && self.value.len() == NANOMETRES {
+            return w.look_up(&self.value);
+        }
+        w.lambda().map(|l| self.at(l))
     }
 
     /// First and last wavelength [nm].

@@ -260,6 +260,7 @@ impl Textures {
     }
 
     /// The value of a spectrum that may be textured, at a path's wavelengths.
+    #[inline]
     pub fn spectrum_input(
         &self,
         input: &SpectrumInput,
