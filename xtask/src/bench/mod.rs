@@ -3,6 +3,7 @@
 mod error;
 pub(crate) mod job;
 mod options;
+mod parse;
 mod report;
 pub(crate) mod row;
 mod samples;
@@ -18,8 +19,12 @@ use std::process::Command;
 /// parts go on.
 type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
-const SECTIONS: &[Section] =
-    &[("samples", samples::measure), ("error", error::measure), ("scaling", scaling::measure)];
+const SECTIONS: &[Section] = &[
+    ("parse", parse::measure),
+    ("samples", samples::measure),
+    ("error", error::measure),
+    ("scaling", scaling::measure),
+];
 
 /// `bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N]
 /// [--output FILE]`.
