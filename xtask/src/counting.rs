@@ -12,8 +12,6 @@ use std::process::Command;
 pub(crate) struct Kernel {
     /// Name in tables and on the command line.
     pub(crate) name: &'static str,
-    /// What the work is counted in.
-    pub(crate) unit: &'static str,
     /// Prepares the work, from the files of a folder if it needs any.
     pub(crate) prepare: fn(&Path) -> Result<Work, String>,
 }

@@ -11,41 +11,29 @@ use steradian::scene::import::ply;
 
 /// Parsers and scans of files that [`write_inputs`] makes.
 pub(crate) const OF_FILES: &[Kernel] = &[
-    Kernel { name: "pbrt", unit: "byte", prepare: |f| Ok(scene(f.join(TEXT))) },
-    Kernel { name: "pbrt std", unit: "byte", prepare: |f| Ok(plain(&[f.join(TEXT)], scan::words_by_std)?) },
-    Kernel {
-        name: "pbrt hand",
-        unit: "byte",
-        prepare: |f| Ok(plain(&[f.join(TEXT)], scan::digits_by_hand)?),
-    },
-    Kernel { name: "ascii", unit: "byte", prepare: |f| meshes(&[f.join(ASCII)]) },
-    Kernel { name: "ascii std", unit: "byte", prepare: |f| plain(&[f.join(ASCII)], scan::words_by_std) },
-    Kernel { name: "ascii hand", unit: "byte", prepare: |f| plain(&[f.join(ASCII)], scan::digits_by_hand) },
-    Kernel { name: "triangles", unit: "byte", prepare: |f| meshes(&[f.join(TRIANGLES)]) },
-    Kernel {
-        name: "triangles scan",
-        unit: "byte",
-        prepare: |f| plain(&[f.join(TRIANGLES)], scan::words_of_four),
-    },
-    Kernel { name: "quads", unit: "byte", prepare: |f| meshes(&[f.join(QUADS)]) },
-    Kernel { name: "quads scan", unit: "byte", prepare: |f| plain(&[f.join(QUADS)], scan::words_of_four) },
+    Kernel { name: "pbrt", prepare: |f| Ok(scene(f.join(TEXT))) },
+    Kernel { name: "pbrt std", prepare: |f| plain(&[f.join(TEXT)], scan::words_by_std) },
+    Kernel { name: "pbrt hand", prepare: |f| plain(&[f.join(TEXT)], scan::digits_by_hand) },
+    Kernel { name: "ascii", prepare: |f| meshes(&[f.join(ASCII)]) },
+    Kernel { name: "ascii std", prepare: |f| plain(&[f.join(ASCII)], scan::words_by_std) },
+    Kernel { name: "ascii hand", prepare: |f| plain(&[f.join(ASCII)], scan::digits_by_hand) },
+    Kernel { name: "triangles", prepare: |f| meshes(&[f.join(TRIANGLES)]) },
+    Kernel { name: "triangles scan", prepare: |f| plain(&[f.join(TRIANGLES)], scan::words_of_four) },
+    Kernel { name: "quads", prepare: |f| meshes(&[f.join(QUADS)]) },
+    Kernel { name: "quads scan", prepare: |f| plain(&[f.join(QUADS)], scan::words_of_four) },
 ];
 
 /// The same for the binary meshes that lie in folders of a folder.
 pub(crate) const OF_COLLECTION: &[Kernel] = &[
-    Kernel { name: "collection", unit: "byte", prepare: |f| meshes(&binary_meshes(f)?) },
-    Kernel {
-        name: "collection scan",
-        unit: "byte",
-        prepare: |f| plain(&binary_meshes(f)?, scan::words_of_four),
-    },
+    Kernel { name: "collection", prepare: |f| meshes(&binary_meshes(f)?) },
+    Kernel { name: "collection scan", prepare: |f| plain(&binary_meshes(f)?, scan::words_of_four) },
 ];
 
 /// Parsers of small inputs, which need no files.
 pub(super) const GATED: &[Kernel] = &[
     Kernel {
         name: "pbrt text, a byte",
-        unit: "byte",
+
         prepare: |_| {
             let text = scene_text(60).into_bytes();
             Ok(Box::new(move || {
@@ -55,14 +43,10 @@ pub(super) const GATED: &[Kernel] = &[
             }))
         },
     },
-    Kernel {
-        name: "ASCII PLY, a byte",
-        unit: "byte",
-        prepare: |_| Ok(mesh(vec![Grid::new(60).ascii_ply()])),
-    },
+    Kernel { name: "ASCII PLY, a byte", prepare: |_| Ok(mesh(vec![Grid::new(60).ascii_ply()])) },
     Kernel {
         name: "binary PLY, a byte",
-        unit: "byte",
+
         prepare: |_| Ok(mesh(vec![Grid::new(150).binary_ply(Faces::Triangles)])),
     },
 ];
@@ -113,7 +97,9 @@ fn meshes(paths: &[PathBuf]) -> Result<Work, String> {
 fn plain(paths: &[PathBuf], scan: fn(&[u8]) -> f32) -> Result<Work, String> {
     let files = read(paths)?;
     Ok(Box::new(move || {
-        files.iter().for_each(|bytes| drop(black_box(scan(bytes))));
+        for bytes in &files {
+            black_box(scan(bytes));
+        }
         files.iter().map(|bytes| bytes.len() as u64).sum()
     }))
 }

@@ -16,38 +16,34 @@ use steradian::shape::ReferencePoint;
 use steradian::spectrum::{Sampled, Wavelengths};
 
 pub(super) const KERNELS: &[Kernel] = &[
-    Kernel {
-        name: "closest hit, rays side by side",
-        unit: "ray",
-        prepare: |_| rays(side_by_side, Query::Closest),
-    },
-    Kernel { name: "closest hit, rays at random", unit: "ray", prepare: |_| rays(at_random, Query::Closest) },
-    Kernel { name: "shadow ray at random", unit: "ray", prepare: |_| rays(at_random, Query::Any) },
-    Kernel { name: "hierarchy, a triangle", unit: "triangle", prepare: |_| hierarchy() },
+    Kernel { name: "closest hit, rays side by side", prepare: |_| rays(side_by_side, Query::Closest) },
+    Kernel { name: "closest hit, rays at random", prepare: |_| rays(at_random, Query::Closest) },
+    Kernel { name: "shadow ray at random", prepare: |_| rays(at_random, Query::Any) },
+    Kernel { name: "hierarchy, a triangle", prepare: |_| hierarchy() },
     Kernel {
         name: "rough conductor, shade and sample",
-        unit: "sample",
+
         prepare: |_| scattering("Material \"conductor\" \"float roughness\" 0.2"),
     },
     Kernel {
         name: "rough dielectric, shade and sample",
-        unit: "sample",
+
         prepare: |_| scattering("Material \"dielectric\" \"float roughness\" 0.2"),
     },
     Kernel {
         name: "coated diffuse, shade and sample",
-        unit: "sample",
+
         prepare: |_| scattering("Material \"coateddiffuse\" \"float roughness\" 0.2"),
     },
     Kernel {
         name: "light sample, eight lamps",
-        unit: "sample",
+
         prepare: |_| Ok(light(scenes::square("Material \"diffuse\"")?)),
     },
-    Kernel { name: "light sample, picture of a sky", unit: "sample", prepare: |_| Ok(light(scenes::sky()?)) },
-    Kernel { name: "sampler, a pair", unit: "pair", prepare: |_| Ok(Box::new(pairs)) },
-    Kernel { name: "film, a sample", unit: "sample", prepare: |_| film() },
-    Kernel { name: "path sample, Cornell box", unit: "sample", prepare: |_| cornell_box() },
+    Kernel { name: "light sample, picture of a sky", prepare: |_| Ok(light(scenes::sky()?)) },
+    Kernel { name: "sampler, a pair", prepare: |_| Ok(Box::new(pairs)) },
+    Kernel { name: "film, a sample", prepare: |_| film() },
+    Kernel { name: "path sample, Cornell box", prepare: |_| cornell_box() },
 ];
 
 /// Units of work of a kernel.
@@ -80,8 +76,12 @@ fn rays(make: fn(usize, &mut Pcg32) -> Ray, query: Query) -> Result<Work, String
         let accel = job.scene.accel();
         for ray in &rays {
             match query {
-                Query::Closest => drop(black_box(accel.intersect(ray, f32::INFINITY, &|_| true))),
-                Query::Any => drop(black_box(accel.occluded(ray, 1.0, &|_| true))),
+                Query::Closest => {
+                    black_box(accel.intersect(ray, f32::INFINITY, &|_| true));
+                }
+                Query::Any => {
+                    black_box(accel.occluded(ray, 1.0, &|_| true));
+                }
             }
         }
         rays.len() as u64
@@ -145,7 +145,9 @@ fn pairs() -> u64 {
     for i in 0..N as i32 / 4 {
         for index in 0..4 {
             sampler.start([i % 32, i / 32], index);
-            (0..DIMENSIONS).for_each(|_| drop(black_box(sampler.next_2d())));
+            for _ in 0..DIMENSIONS {
+                black_box(sampler.next_2d());
+            }
         }
     }
     N as u64 * u64::from(DIMENSIONS)
