@@ -1,8 +1,11 @@
 //! Developer chores of Steradian: `cargo xtask <command>`.
 
 mod bench;
+mod counting;
 mod faults;
+mod gate;
 mod imports;
+mod kernels;
 mod layers;
 mod mitsuba_bsdfs;
 mod references;
@@ -19,6 +22,8 @@ const USAGE: &str = "usage: cargo xtask <command>
             render the scenes of the collection that have reference pictures and compare them
   bench [SECTION...] [--embree LIB] [--python EXE] [--baseline EXE] [--scenes DIR] [--reps N] [--triangles N] [--output FILE]
             measure speed against the peers that are there, and write one report
+  gate [--update]
+            fail when a kernel takes more instructions than xtask/gate/instructions.toml says; needs valgrind
   mitsuba-bsdfs [--python EXE] [--bsdf FILE]
             f and densities of our scattering functions against those of Mitsuba 3, FILE among them
 ";
@@ -31,6 +36,8 @@ fn main() -> ExitCode {
         Some("faults") => faults::run(&root),
         Some("references") => references::run(&root, &arguments[1..]),
         Some("bench") => bench::run(&root, &arguments[1..]),
+        Some("gate") => gate::run(&root, &arguments[1..]),
+        Some("kernels") => kernels::run(&arguments[1..]),
         Some("mitsuba-bsdfs") => mitsuba_bsdfs::run(&arguments[1..]),
         _ => Err(USAGE.to_owned()),
     };

@@ -5,6 +5,7 @@ mod embree;
 mod error;
 pub(crate) mod job;
 mod options;
+mod parse;
 mod report;
 pub(crate) mod row;
 mod samples;
@@ -22,6 +23,7 @@ type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
 const SECTIONS: &[Section] = &[
     ("build", build::measure),
+    ("parse", parse::measure),
     ("samples", samples::measure),
     ("error", error::measure),
     ("scaling", scaling::measure),
