@@ -1,7 +1,7 @@
 //! Reflection from metals, smooth or rough.
 
 use super::albedo::Albedo;
-use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::contract::{BsdfSample, Evaluated, Lobe, Lobes, Side};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
 use crate::optics::{Distribution, TrowbridgeReitz, fresnel, refraction};
@@ -32,6 +32,16 @@ impl<D: Distribution> Conductor<D> {
     /// Density of [`Conductor::sample`]; zero where the metal is smooth.
     pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
         PdfSolidAngle(self.halfway(wo, wi).map_or(0.0, |wm| self.density(wo, wm)))
+    }
+
+    /// Both at once.
+    pub fn evaluate(&self, wo: LocalDir, wi: LocalDir) -> Evaluated {
+        let Some(wm) = self.halfway(wo, wi) else { return Evaluated::NOTHING };
+        let d = 0.25 * self.roughness.d(wm);
+        Evaluated {
+            f: (self.fresnel(wo.dot(*wm)) * (d * self.roughness.g_over_cosines(wo, wi))).cast(),
+            pdf: PdfSolidAngle(d * self.roughness.g1_over_cos(wo)),
+        }
     }
 
     /// A direction mirrored at a visible microfacet; `None` when it falls below the horizon.

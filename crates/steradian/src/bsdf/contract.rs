@@ -123,6 +123,20 @@ impl BsdfSample {
     }
 }
 
+/// Value and density of a pair of directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluated {
+    /// f [sr⁻¹], without the cosine and without discrete directions.
+    pub f: Sampled<PerSteradian>,
+    /// Density of `wi` among the continuous directions that are drawn for `wo`.
+    pub pdf: PdfSolidAngle,
+}
+
+impl Evaluated {
+    /// Directions that nothing is scattered between.
+    pub(crate) const NOTHING: Self = Self { f: Sampled::ZERO, pdf: PdfSolidAngle(0.0) };
+}
+
 /// Which lobes of a BSDF are present: a purely specular one needs no light samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lobes {

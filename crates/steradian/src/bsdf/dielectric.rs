@@ -1,7 +1,7 @@
 //! The interface between two transparent media, smooth or rough, and a thin pane of two such interfaces.
 
 use super::albedo::Albedo;
-use super::contract::{BsdfSample, Lobe, Lobes, Mode, Side, Sides};
+use super::contract::{BsdfSample, Evaluated, Lobe, Lobes, Mode, Side, Sides};
 use super::specimen::{Claims, Specimen};
 use crate::math::{LocalDir, Vec2, Vec3};
 use crate::optics::fresnel::{self, Crossing};
@@ -12,7 +12,7 @@ use crate::units::{Density, PdfSolidAngle, PerSteradian};
 /// An interface between transparent media.
 ///
 /// The index is one number: where it depends on the wavelength, the path carries its hero only.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric<D = TrowbridgeReitz> {
     /// Index below the surface over the index above it.
     pub eta: f32,
@@ -67,13 +67,19 @@ pub(crate) struct Draw {
 impl<D: Distribution> Dielectric<D> {
     /// f [sr⁻¹]; Walter et al. 2007, eq. 20 and 21, the latter over η² for radiance.
     pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
-        self.evaluate(wo, wi, mode, Sides::Both).map_or(Sampled::ZERO, |e| Sampled::splat(e.f))
+        self.evaluate_at(wo, wi, mode, Sides::Both).map_or(Sampled::ZERO, |e| Sampled::splat(e.f))
     }
 
     /// Density of [`Dielectric::sample`]; zero where the interface is smooth.
     pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
         // The density does not depend on what is transported.
-        PdfSolidAngle(self.evaluate(wo, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf))
+        PdfSolidAngle(self.evaluate_at(wo, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf))
+    }
+
+    /// Both at once.
+    pub fn evaluate(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Evaluated {
+        self.evaluate_at(wo, wi, mode, Sides::Both)
+            .map_or(Evaluated::NOTHING, |e| Evaluated { f: Sampled::splat(e.f), pdf: PdfSolidAngle(e.pdf) })
     }
 
     /// A direction mirrored or refracted at a visible microfacet, chosen with `uc` by its reflectance.
@@ -121,7 +127,7 @@ impl<D: Distribution> Dielectric<D> {
 
     /// Value and density for a rough interface; `None` where both are zero.
     #[inline]
-    pub(crate) fn evaluate(
+    pub(crate) fn evaluate_at(
         &self,
         wo: LocalDir,
         wi: LocalDir,

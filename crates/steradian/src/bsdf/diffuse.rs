@@ -9,7 +9,7 @@ use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
 use std::f32::consts::FRAC_1_PI;
 
 /// Lambertian reflection f = ρ/π, A (33), alike on both sides of the surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diffuse {
     /// Reflectance ρ in [0, 1].
     pub reflectance: Sampled<Unitless>,

@@ -84,7 +84,7 @@ pub enum ExitWeights {
 }
 
 /// What lies above the base.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coat {
     /// The upper interface.
     pub interface: Dielectric,
@@ -128,7 +128,7 @@ impl Coat {
 }
 
 /// A coat over a base.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layered<B> {
     /// What light enters through.
     pub coat: Coat,
@@ -150,7 +150,7 @@ impl<B: Base> Layered<B> {
     /// An unbiased estimate of f [sr⁻¹], without discrete directions.
     pub fn eval(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Sampled<PerSteradian> {
         let Some((wo, wi)) = upwards(wo, wi) else { return Sampled::ZERO };
-        let surface = self.coat.interface.evaluate(wo, wi, mode, Sides::Both).map_or(0.0, |e| e.f);
+        let surface = self.coat.interface.evaluate_at(wo, wi, mode, Sides::Both).map_or(0.0, |e| e.f);
         let mut f = Sampled::splat(surface);
         if !self.scatters_below() {
             return f;
@@ -177,7 +177,8 @@ impl<B: Base> Layered<B> {
     pub fn pdf(&self, wo: LocalDir, wi: LocalDir) -> PdfSolidAngle {
         let Some((wo, wi)) = upwards(wo, wi) else { return PdfSolidAngle(0.0) };
         let interface = &self.coat.interface;
-        let surface = interface.evaluate(wo, wi, Mode::Importance, Sides::Reflection).map_or(0.0, |e| e.pdf);
+        let surface =
+            interface.evaluate_at(wo, wi, Mode::Importance, Sides::Reflection).map_or(0.0, |e| e.pdf);
         let mut rng = self.rng(Stream::Pdf, [wo.x, wo.y, wo.z, wi.x, wi.y, wi.z]);
         let mut below = 0.0;
         for _ in 0..self.coat.samples {
@@ -260,7 +261,7 @@ impl<B: Base> Layered<B> {
         let connection_share = |other: f32| exit_pdf.map_or(1.0, |p| power_heuristic(p, other));
         let through_coat = |w: LocalDir, depth: f32, drawn: Option<f32>| {
             // A smooth coat evaluates to nothing.
-            let Some(e) = interface.evaluate(-w, wi, mode, Sides::Transmission) else { return 0.0 };
+            let Some(e) = interface.evaluate_at(-w, wi, mode, Sides::Transmission) else { return 0.0 };
             let share = drawn.map_or(1.0, |p| power_heuristic(p, self.competing_pdf(&e)));
             e.f * share * coat.transmittance(depth, w)
         };
@@ -400,7 +401,7 @@ impl<B: Base> Layered<B> {
         let Some(exit_pdf) = interface.density(wi, &exit) else { return through_base };
         let Some(bounce) = self.base.sample(-entry.wi, next_2d(rng)) else { return 0.0 };
         let through_coat =
-            interface.evaluate(-bounce.wi, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf);
+            interface.evaluate_at(-bounce.wi, wi, Mode::Importance, Sides::Both).map_or(0.0, |e| e.pdf);
         match bounce.density {
             Density::Delta => through_coat,
             Density::SolidAngle(p) => {
@@ -481,7 +482,7 @@ fn next_2d(rng: &mut Pcg32) -> Vec2 {
 }
 
 /// Share of a strategy with density `p` against one with density `q` (Veach 1997, eq. 9.14 with β = 2).
-fn power_heuristic(p: f32, q: f32) -> f32 {
+pub(super) fn power_heuristic(p: f32, q: f32) -> f32 {
     // Scaled by the larger, so that squares of narrow lobes do not overflow.
     let m = p.max(q);
     if m == 0.0 {

@@ -22,14 +22,16 @@ pub mod modified_phong;
 pub mod openpbr;
 pub mod oren_nayar;
 mod quadrature;
+mod rough_varnish;
 pub mod specimen;
 pub mod stack;
+mod varnish;
 pub mod varnished;
 
 pub use albedo::Albedo;
 pub use coating::Coating;
 pub use conductor::Conductor;
-pub use contract::{BsdfSample, Lobe, Lobes, Mode, Side};
+pub use contract::{BsdfSample, Evaluated, Lobe, Lobes, Mode, Side};
 pub use dielectric::{Dielectric, ThinDielectric};
 pub use diffuse::{Diffuse, DiffuseTransmission};
 pub use finished_conductor::FinishedConductor;
@@ -43,8 +45,10 @@ pub use mirror::Mirror;
 pub use modified_phong::{ModifiedPhong, PhongLobe, PhongNormalization, PhongSampling};
 pub use openpbr::OpenPbr;
 pub use oren_nayar::OrenNayar;
+pub use rough_varnish::RoughVarnish;
 pub use specimen::{Claims, Energy, Reciprocity, Specimen, Values};
 pub use stack::{Stack, StackCabinet};
+pub use varnish::Varnish;
 pub use varnished::VarnishedDiffuse;
 
 use crate::math::{LocalDir, Vec2};
@@ -78,6 +82,8 @@ pub enum Bsdf<'a> {
     ThinDielectric(ThinDielectric),
     /// A smooth clear coat over a Lambertian base.
     VarnishedDiffuse(VarnishedDiffuse),
+    /// A rough clear coat over a Lambertian base.
+    RoughVarnish(RoughVarnish<'a>),
     /// A dielectric coat over a Lambertian base.
     CoatedDiffuse(Layered<Diffuse>),
     /// A dielectric coat over a metal.
@@ -112,6 +118,7 @@ impl<'a> Bsdf<'a> {
             Self::FinishedDielectric(b) => b.eval(wo, wi, mode),
             Self::ThinDielectric(_) => Sampled::ZERO,
             Self::VarnishedDiffuse(b) => b.eval(wo, wi),
+            Self::RoughVarnish(b) => b.eval(wo, wi),
             Self::CoatedDiffuse(b) => b.eval(wo, wi, mode),
             Self::CoatedConductor(b) => b.eval(wo, wi, mode),
             Self::OpenPbr(b) => b.eval(wo, wi, mode),
@@ -136,12 +143,24 @@ impl<'a> Bsdf<'a> {
             Self::FinishedDielectric(b) => b.pdf(wo, wi),
             Self::ThinDielectric(_) => PdfSolidAngle(0.0),
             Self::VarnishedDiffuse(b) => b.pdf(wo, wi),
+            Self::RoughVarnish(b) => b.pdf(wo, wi),
             Self::CoatedDiffuse(b) => b.pdf(wo, wi),
             Self::CoatedConductor(b) => b.pdf(wo, wi),
             Self::OpenPbr(b) => b.pdf(wo, wi),
             Self::Measured(b) => b.pdf(wo, wi),
             Self::Hair(b) => b.pdf(wo, wi),
             Self::Stack(b) => b.pdf(wo, wi),
+        }
+    }
+
+    /// [`Bsdf::eval`] and [`Bsdf::pdf`] at once: they share most of their work.
+    pub fn evaluate(&self, wo: LocalDir, wi: LocalDir, mode: Mode) -> Evaluated {
+        match self {
+            Self::Conductor(b) => b.evaluate(wo, wi),
+            Self::Dielectric(b) => b.evaluate(wo, wi, mode),
+            Self::VarnishedDiffuse(b) => b.evaluate(wo, wi),
+            Self::RoughVarnish(b) => b.evaluate(wo, wi),
+            _ => Evaluated { f: self.eval(wo, wi, mode), pdf: self.pdf(wo, wi, mode) },
         }
     }
 
@@ -161,6 +180,7 @@ impl<'a> Bsdf<'a> {
             Self::FinishedDielectric(b) => b.sample(wo, uc, u, mode),
             Self::ThinDielectric(b) => b.sample(wo, uc),
             Self::VarnishedDiffuse(b) => b.sample(wo, uc, u),
+            Self::RoughVarnish(b) => b.sample(wo, uc, u),
             Self::CoatedDiffuse(b) => b.sample(wo, uc, u, mode),
             Self::CoatedConductor(b) => b.sample(wo, uc, u, mode),
             Self::OpenPbr(b) => b.sample(wo, uc, u, mode),
@@ -194,7 +214,8 @@ impl<'a> Bsdf<'a> {
             Self::ThinDielectric(b) => Some(b.albedo(wi)),
             Self::VarnishedDiffuse(b) => Some(b.albedo(wi)),
             Self::Stack(b) => b.albedo(wi),
-            Self::CoatedDiffuse(_)
+            Self::RoughVarnish(_)
+            | Self::CoatedDiffuse(_)
             | Self::CoatedConductor(_)
             | Self::OpenPbr(_)
             | Self::Measured(_)
@@ -211,6 +232,7 @@ impl<'a> Bsdf<'a> {
             Self::FinishedDielectric(b) => b.interface(),
             Self::ThinDielectric(b) => Some(Interface::clear(b.eta)),
             Self::VarnishedDiffuse(b) => Some(Interface::clear(b.layers().coat.interface.eta)),
+            Self::RoughVarnish(b) => Some(Interface::clear(b.varnish.coat().interface.eta)),
             Self::CoatedDiffuse(b) => Some(Interface::clear(b.coat.interface.eta)),
             Self::CoatedConductor(b) => Some(Interface::clear(b.coat.interface.eta)),
             Self::Stack(b) => Some(Interface { eta: b.top_eta(), k: Sampled::ZERO }),
@@ -233,6 +255,7 @@ impl<'a> Bsdf<'a> {
             Self::FinishedDielectric(b) => b.lobes(),
             Self::ThinDielectric(_) => Lobes::default(),
             Self::VarnishedDiffuse(b) => b.lobes(),
+            Self::RoughVarnish(b) => b.lobes(),
             Self::CoatedDiffuse(b) => b.lobes(),
             Self::CoatedConductor(b) => b.lobes(),
             Self::OpenPbr(b) => b.lobes(),
@@ -265,6 +288,12 @@ impl<'a> Bsdf<'a> {
                 layers.regularize();
                 *self = Self::CoatedDiffuse(layers);
             }
+            Self::RoughVarnish(b) => {
+                // The tables are those of the coat as it is.
+                let mut layers = b.layers();
+                layers.regularize();
+                *self = Self::CoatedDiffuse(layers);
+            }
             Self::OpenPbr(b) => b.regularize(),
             Self::CoatedDiffuse(b) => b.regularize(),
             Self::CoatedConductor(b) => b.regularize(),
@@ -276,6 +305,7 @@ impl<'a> Bsdf<'a> {
     #[must_use]
     pub fn with_seed(mut self, seed: u64) -> Self {
         match &mut self {
+            Self::RoughVarnish(b) => b.seed = seed,
             Self::CoatedDiffuse(b) => b.seed = seed,
             Self::CoatedConductor(b) => b.seed = seed,
             Self::Stack(b) => b.seed = seed,
@@ -319,6 +349,7 @@ impl<'a> Bsdf<'a> {
             Self::FinishedDielectric(b) => b.claims(),
             Self::ThinDielectric(b) => b.claims(),
             Self::VarnishedDiffuse(b) => b.claims(),
+            Self::RoughVarnish(b) => b.claims(),
             Self::CoatedDiffuse(b) => b.claims(),
             Self::CoatedConductor(b) => b.claims(),
             Self::OpenPbr(b) => b.claims(),
@@ -345,6 +376,7 @@ impl<'a> Bsdf<'a> {
         );
         all.extend(ThinDielectric::specimens().map(|s| s.map(Self::ThinDielectric)));
         all.extend(VarnishedDiffuse::specimens().map(|s| s.map(Self::VarnishedDiffuse)));
+        all.extend(RoughVarnish::specimens(&cabinet.varnishes).map(|s| s.map(Self::RoughVarnish)));
         all.extend(Layered::<Diffuse>::specimens().map(|s| s.map(Self::CoatedDiffuse)));
         all.extend(Layered::<Conductor>::specimens().map(|s| s.map(Self::CoatedConductor)));
         all.extend(OpenPbr::specimens().map(|s| s.map(Self::OpenPbr)));
@@ -360,6 +392,8 @@ impl<'a> Bsdf<'a> {
 pub struct Cabinet {
     /// Small synthetic measurements.
     pub measured: Vec<measured::Synthetic>,
+    /// Tables of rough coats.
+    pub varnishes: Vec<Varnish>,
     /// Layers of stacks.
     pub stacks: StackCabinet,
     /// Losses of rough metals.
@@ -372,6 +406,7 @@ impl Default for Cabinet {
     fn default() -> Self {
         Self {
             measured: measured::synthetic_tables(),
+            varnishes: rough_varnish::varnishes(),
             conductors: finished_conductor::ConductorTables::default(),
             dielectrics: finished_dielectric::DielectricTables::default(),
             stacks: StackCabinet::default(),

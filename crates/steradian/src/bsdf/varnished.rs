@@ -4,19 +4,22 @@
 //! this is the random walk of [`Layered`] with every integral done (Saunderson 1942, with directions and absorption).
 
 use super::albedo::Albedo;
-use super::contract::{BsdfSample, Lobe, Lobes, Side};
+use super::contract::{BsdfSample, Evaluated, Lobe, Lobes, Side};
 use super::diffuse::Diffuse;
 use super::layered::{Coat, Layered};
 use super::quadrature::GAUSS_LEGENDRE;
 use super::specimen::{Claims, Specimen};
+use super::varnish::sent_up;
 use crate::math::float::safe_sqrt;
 use crate::math::{LocalDir, Vec2, Vec3, warp};
-use crate::optics::{TrowbridgeReitz, absorption, fresnel};
+use crate::optics::fresnel::{self, Crossing};
+use crate::optics::{TrowbridgeReitz, absorption};
 use crate::spectrum::Sampled;
-use crate::units::{Density, PdfSolidAngle, PerSteradian};
+use crate::units::{Density, PdfSolidAngle, PerSteradian, Unitless};
+use std::f32::consts::FRAC_1_PI;
 
 /// A smooth coat without scattering over a Lambertian base, alike on both sides of the surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarnishedDiffuse {
     layers: Layered<Diffuse>,
     /// Light that the base gets back of what it gave off: absorbed twice and reflected by the coat from below.
@@ -31,6 +34,14 @@ impl VarnishedDiffuse {
             .then(|| Self { layers, returned: returned_share(coat.interface.eta, coat.thickness) })
     }
 
+    /// The same coat over a base of another reflectance: the coat's integral is not done again.
+    #[must_use]
+    #[inline]
+    pub fn over(&self, reflectance: Sampled<Unitless>, seed: u64) -> Self {
+        let layers = Layered { coat: self.layers.coat, base: Diffuse { reflectance }, seed };
+        Self { layers, returned: self.returned }
+    }
+
     /// The layers that this is the closed form of.
     pub fn layers(&self) -> &Layered<Diffuse> {
         &self.layers
@@ -42,16 +53,7 @@ impl VarnishedDiffuse {
         if !wo.same_hemisphere(wi) {
             return Sampled::ZERO;
         }
-        let coat = &self.layers.coat;
-        let eta = coat.interface.eta;
-        let passed = self.passed(wo.abs_cos_theta()) * self.passed(wi.abs_cos_theta()) / (eta * eta);
-        let orders = i32::from(coat.max_depth.div_ceil(2));
-        let returned = self.returned;
-        let base = self.layers.base.reflectance.map(|rho| {
-            // Both factors are below one.
-            rho * (1.0 - (rho * returned).powi(orders)) / (1.0 - rho * returned)
-        });
-        (base * (passed * std::f32::consts::FRAC_1_PI)).cast()
+        self.sent_up() * (self.passage(wo).passed() * self.passage(wi).passed())
     }
 
     /// (1 − R(wo)) cosθi / π.
@@ -63,12 +65,26 @@ impl VarnishedDiffuse {
         PdfSolidAngle(entered * warp::cosine_hemisphere_pdf(wi.abs_cos_theta()))
     }
 
+    /// Both at once.
+    pub fn evaluate(&self, wo: LocalDir, wi: LocalDir) -> Evaluated {
+        if !wo.same_hemisphere(wi) {
+            return Evaluated::NOTHING;
+        }
+        let (there, back) = (self.passage(wo), self.passage(wi));
+        let entered = 1.0 - there.reflectance;
+        Evaluated {
+            f: self.sent_up() * (there.passed() * back.passed()),
+            pdf: PdfSolidAngle(entered * warp::cosine_hemisphere_pdf(wi.abs_cos_theta())),
+        }
+    }
+
     /// The mirror direction with the probability of its reflectance, else a cosine-distributed direction.
     pub fn sample(&self, wo: LocalDir, uc: f32, u: Vec2) -> Option<BsdfSample> {
         if wo.z == 0.0 {
             return None;
         }
-        if uc < fresnel::dielectric(wo.abs_cos_theta(), self.layers.coat.interface.eta) {
+        let there = self.passage(wo);
+        if uc < there.reflectance {
             return Some(BsdfSample {
                 wi: LocalDir::new_unchecked(Vec3::new(-wo.x, -wo.y, wo.z)),
                 weight: Sampled::ONE,
@@ -80,10 +96,13 @@ impl VarnishedDiffuse {
         }
         let up = warp::cosine_hemisphere(u);
         let wi = if wo.z > 0.0 { up } else { -up };
-        let pdf = self.pdf(wo, wi);
+        let entered = 1.0 - there.reflectance;
+        let pdf = PdfSolidAngle(entered * warp::cosine_hemisphere_pdf(up.z));
+        // What enters from `wo` and the cosine cancel.
+        let carried = std::f32::consts::PI * there.transmittance * self.passage(wi).passed();
         (pdf.0 > 0.0).then(|| BsdfSample {
             wi,
-            weight: self.eval(wo, wi).weight(up.z, pdf),
+            weight: self.sent_up().cast() * carried,
             density: Density::SolidAngle(pdf),
             side: Side::Reflection,
             lobe: Lobe::Glossy,
@@ -130,15 +149,40 @@ impl VarnishedDiffuse {
         .filter_map(|(name, claims, bsdf)| Some(Specimen::new(name, claims, bsdf?)))
     }
 
-    /// The share of light from outside at `cos_theta` that arrives at the base.
-    fn passed(&self, cos_theta: f32) -> f32 {
+    /// Σ ρ (ρ K)^k / (π η²) [sr⁻¹]: what the base sends up, and what becomes of it as it leaves into air.
+    #[inline]
+    fn sent_up(&self) -> Sampled<PerSteradian> {
         let coat = &self.layers.coat;
         let eta = coat.interface.eta;
-        let inside = safe_sqrt(1.0 - (1.0 - cos_theta * cos_theta) / (eta * eta));
-        if inside == 0.0 {
-            return 0.0;
-        }
-        (1.0 - fresnel::dielectric(cos_theta, eta)) * absorption::bouguer(1.0 / inside, coat.thickness)
+        let sum = sent_up(self.layers.base.reflectance, self.returned, coat.max_depth);
+        (sum * (FRAC_1_PI / (eta * eta))).cast()
+    }
+
+    /// The way of light between `w` outside and the base.
+    #[inline]
+    fn passage(&self, w: LocalDir) -> Passage {
+        let coat = &self.layers.coat;
+        let crossing = Crossing::new(w.abs_cos_theta(), coat.interface.eta);
+        let inside = crossing.cos_theta_t();
+        let transmittance =
+            if inside > 0.0 { absorption::bouguer(1.0 / inside, coat.thickness) } else { 0.0 };
+        Passage { reflectance: crossing.reflectance, transmittance }
+    }
+}
+
+/// One passage through the coat.
+struct Passage {
+    /// What the interface reflects.
+    reflectance: f32,
+    /// What the medium lets pass.
+    transmittance: f32,
+}
+
+impl Passage {
+    /// The share of light from outside that arrives at the base.
+    #[inline]
+    fn passed(&self) -> f32 {
+        (1.0 - self.reflectance) * self.transmittance
     }
 }
 

@@ -88,23 +88,42 @@ impl Camera {
         const NONE: PointMotion = PointMotion { dpdx: Vec3::ZERO, dpdy: Vec3::ZERO };
         let to_render = self.render_from_camera.at(time);
         let to_camera = to_render.inverse();
-        let (Some(axis), Some(n)) = (Dir::new(*to_camera.point(p)), Dir::new(to_camera.normal_vector(*n)))
-        else {
-            return NONE;
-        };
-        let distance = to_camera.point(p).length();
-        let turn = glam::Quat::from_rotation_arc(*axis, Vec3::Z);
-        let n = turn * *n;
+        let there = *to_camera.point(p);
+        let (Some(axis), n) = (Dir::new(there), to_camera.normal_vector(*n)) else { return NONE };
+        let distance = axis.dot(there);
+        let turned = Turned::new(axis);
+        // Of any length: only ratios of its components count.
+        let n = Vec3::new(n.dot(turned.x), n.dot(turned.y), n.dot(*axis));
         // Offset rays start near the camera and run near the z axis; both meet the plane n·x = n_z distance.
         let meet = |o: Vec3, d: Vec3| o + d * ((n.z * distance - n.dot(o)) / n.dot(d));
         let here = Vec3::Z * distance;
         let scale = (1.0 / (samples_per_pixel.max(1) as f32).sqrt()).max(0.125);
         let motion = |o: Vec3, d: Vec3| {
-            let moved = to_render.vector(turn.inverse() * (meet(o, Vec3::Z + d) - here)) * scale;
+            let moved = to_render.vector(turned.back(meet(o, Vec3::Z + d) - here)) * scale;
             if moved.is_finite() { moved } else { Vec3::ZERO }
         };
         let least = &self.least;
         PointMotion { dpdx: motion(least.origin_x, least.dir_x), dpdy: motion(least.origin_y, least.dir_y) }
+    }
+}
+
+/// The frame that the shortest rotation of the camera's takes its z axis to `z` by.
+struct Turned {
+    x: Vec3,
+    y: Vec3,
+    z: Dir,
+}
+
+impl Turned {
+    fn new(z: Dir) -> Self {
+        // Rodrigues' rotation about z × Z, without a root; behind the camera any frame does.
+        let k = 1.0 / (1.0 + z.z).max(1e-6);
+        let half = *z + Vec3::Z;
+        Self { x: Vec3::X - half * (z.x * k), y: Vec3::Y - half * (z.y * k), z }
+    }
+
+    fn back(&self, v: Vec3) -> Vec3 {
+        self.x * v.x + self.y * v.y + *self.z * v.z
     }
 }
 

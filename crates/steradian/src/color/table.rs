@@ -19,8 +19,12 @@ const N: usize = 32;
 pub struct UpsamplingTable {
     magnitudes: Axis,
     ratios: Axis,
-    coefficients: Box<[Vec3A]>,
+    /// By the largest component and its size; within, by the ratios of the two that follow it, the first varying fastest.
+    slabs: Box<[Slab]>,
 }
+
+/// Coefficients for one size of the largest component.
+type Slab = [[Vec3A; N]; N];
 
 /// Nodes over [0, 1], found in constant time, and the coordinate in which to interpolate between them.
 #[derive(Clone, Debug)]
@@ -55,6 +59,7 @@ impl Axis {
     }
 
     /// Where `v` ∈ [0, 1] lies, given its own coordinate.
+    #[inline]
     fn locate(&self, v: f32, coordinate: f32) -> Between {
         let mut node = usize::from(self.guide[((v * GUIDES as f32) as usize).min(GUIDES - 1)]);
         while node + 2 < N && self.nodes[node + 1] <= v {
@@ -73,7 +78,7 @@ impl UpsamplingTable {
             0.5 * (s + smoothstep(s))
         });
         let ratios: [f32; N] = std::array::from_fn(|i| smoothstep(unit(i)));
-        let mut coefficients = vec![Vec3A::ZERO; 3 * N * N * N].into_boxed_slice();
+        let mut slabs = vec![[[Vec3A::ZERO; N]; N]; 3 * N].into_boxed_slice();
         for largest in 0..3 {
             // Neighbours start from each other, outward from grey: the coefficients of a slab are then one branch of
             // the solution, without jumps where several sets show the same colour.
@@ -98,7 +103,7 @@ impl UpsamplingTable {
                         DVec3::ZERO
                     };
                     middle[y][x] = fit(N / 2, start);
-                    let mut put = |z, c: DVec3| coefficients[index(largest, z, y, x)] = c.as_vec3a();
+                    let mut put = |z: usize, c: DVec3| slabs[largest * N + z][y][x] = c.as_vec3a();
                     put(N / 2, middle[y][x]);
                     let mut c = middle[y][x];
                     for z in N / 2 + 1..N {
@@ -113,7 +118,7 @@ impl UpsamplingTable {
                 }
             }
         }
-        Self { magnitudes: Axis::new(magnitudes, level), ratios: Axis::new(ratios, |r| r), coefficients }
+        Self { magnitudes: Axis::new(magnitudes, level), ratios: Axis::new(ratios, |r| r), slabs }
     }
 
     /// The reflectance that shows `rgb`; components are clamped to [0, 1]. Greys are exact.
@@ -133,12 +138,14 @@ impl UpsamplingTable {
         let [rx, ry] = [1, 2].map(|k| v[(largest + k) % 3] / magnitude);
         let z = self.magnitudes.locate(magnitude, level(magnitude));
         let (x, y) = (self.ratios.locate(rx, rx), self.ratios.locate(ry, ry));
-        let row = |dz, dy| {
-            let first = index(largest, z.node + dz, y.node + dy, x.node);
-            self.coefficients[first].lerp(self.coefficients[first + 1], x.fraction)
+        // Nodes end one before the last; the remainder says so to the compiler.
+        let (x0, y0) = (x.node % (N - 1), y.node % (N - 1));
+        let in_slab = |slab: &Slab| {
+            let in_row = |row: &[Vec3A; N]| row[x0].lerp(row[x0 + 1], x.fraction);
+            in_row(&slab[y0]).lerp(in_row(&slab[y0 + 1]), y.fraction)
         };
-        let slice = |dz| row(dz, 0).lerp(row(dz, 1), y.fraction);
-        let c = slice(0).lerp(slice(1), z.fraction);
+        let first = largest * N + z.node;
+        let c = in_slab(&self.slabs[first]).lerp(in_slab(&self.slabs[first + 1]), z.fraction);
         Sigmoid { c0: c.x, c1: c.y, c2: c.z }
     }
 }
@@ -178,10 +185,6 @@ fn unit(i: usize) -> f32 {
 
 fn smoothstep(x: f32) -> f32 {
     x * x * (3.0 - 2.0 * x)
-}
-
-fn index(largest: usize, z: usize, y: usize, x: usize) -> usize {
-    ((largest * N + z) * N + y) * N + x
 }
 
 #[cfg(test)]

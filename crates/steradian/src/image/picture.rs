@@ -4,7 +4,7 @@ use super::encoding::ColorEncoding;
 use super::error::ImageError;
 use super::wrap::Wrap;
 use crate::color::{ColorSpaceKind, Rgb};
-use crate::math::Vec2;
+use crate::math::{Vec2, Vec3};
 use exr::prelude::f16;
 
 /// What the channels of a picture are.
@@ -180,13 +180,16 @@ impl Image {
 
     /// Bilinear interpolation of [`Image::rgb`] at `st`, where [0, 1]² is the picture and t points down.
     pub fn bilerp_rgb(&self, st: Vec2, wrap: Wrap) -> Rgb {
-        let mut sum = Rgb::default();
-        for (base, weight) in self.taps(st, wrap) {
-            if let Some(base) = base {
-                sum = sum + self.rgb_at(base) * weight;
+        let taps = self.taps(st, wrap);
+        // Chosen once, not for each channel of each texel.
+        match (&self.texels, self.layout) {
+            (_, Layout::Gray) => Rgb(Vec3::splat(self.bilerp_scalar(st, wrap))),
+            (Texels::U8 { codes, linear, .. }, Layout::Rgb | Layout::Rgba) => {
+                blend(&taps, codes, |code| linear[usize::from(code)])
             }
+            (Texels::F16(v), Layout::Rgb | Layout::Rgba) => blend(&taps, v, f16::to_f32),
+            (Texels::F32(v), Layout::Rgb | Layout::Rgba) => blend(&taps, v, |v| v),
         }
-        sum
     }
 
     /// Bilinear interpolation of [`Image::scalar`] at `st`, where [0, 1]² is the picture and t points down.
@@ -261,13 +264,21 @@ impl Image {
         let (dx, dy) = (x - x0, y - y0);
         let (x0, y0) = (x0 as i32, y0 as i32);
         let (x1, y1) = (x0.saturating_add(1), y0.saturating_add(1));
-        let at = |x, y| wrap.resolve(x, y, self.width, self.height).map(|[x, y]| self.base(x, y));
-        [
-            (at(x0, y0), (1.0 - dx) * (1.0 - dy)),
-            (at(x1, y0), dx * (1.0 - dy)),
-            (at(x0, y1), (1.0 - dx) * dy),
-            (at(x1, y1), dx * dy),
-        ]
+        let weights = [(1.0 - dx) * (1.0 - dy), dx * (1.0 - dy), (1.0 - dx) * dy, dx * dy];
+        let bases = match wrap {
+            Wrap::Axes { s, t } => {
+                // Each axis by itself: two columns and two rows.
+                let ([c0, c1], [r0, r1]) =
+                    (s.resolve_both([x0, x1], self.width), t.resolve_both([y0, y1], self.height));
+                let at = |x: Option<u32>, y: Option<u32>| Some(self.base(x?, y?));
+                [at(c0, r0), at(c1, r0), at(c0, r1), at(c1, r1)]
+            }
+            Wrap::OctahedralSphere => {
+                let at = |x, y| wrap.resolve(x, y, self.width, self.height).map(|[x, y]| self.base(x, y));
+                [at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)]
+            }
+        };
+        std::array::from_fn(|i| (bases[i], weights[i]))
     }
 
     fn base(&self, x: u32, y: u32) -> usize {
@@ -299,6 +310,18 @@ impl Image {
             Layout::Rgba => self.value(base + 3),
         }
     }
+}
+
+/// The weighted sum of the first three channels at each tap.
+#[inline]
+fn blend<T: Copy>(taps: &Taps, values: &[T], linear: impl Fn(T) -> f32) -> Rgb {
+    let mut sum = Vec3::ZERO;
+    for &(base, weight) in taps {
+        if let Some(&[r, g, b]) = base.and_then(|base| values.get(base..)).and_then(<[T]>::first_chunk) {
+            sum += Vec3::new(linear(r), linear(g), linear(b)) * weight;
+        }
+    }
+    Rgb(sum)
 }
 
 fn check_len(width: u32, height: u32, layout: Layout, found: usize) -> Result<(), ImageError> {

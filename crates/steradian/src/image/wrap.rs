@@ -64,7 +64,17 @@ impl Wrap {
 }
 
 impl AxisWrap {
+    /// Two coordinates, most often both inside.
+    #[inline]
+    pub(crate) fn resolve_both(self, x: [i32; 2], n: u32) -> [Option<u32>; 2] {
+        x.map(|x| if (x as u32) < n { Some(x as u32) } else { self.resolve(x, n) })
+    }
+
     fn resolve(self, x: i32, n: u32) -> Option<u32> {
+        if self == Self::Repeat && n.is_power_of_two() {
+            // The remainder of two's complement.
+            return Some(x as u32 & (n - 1));
+        }
         let (x, n) = (i64::from(x), i64::from(n));
         match self {
             Self::Repeat => Some(x.rem_euclid(n) as u32),

@@ -2,7 +2,7 @@
 
 use super::contract::{LightError, LightPower, LightSample, LightTarget};
 use super::normalise::{Emission, Stated};
-use super::picture::EmissionPicture;
+use super::picture::{EmissionPicture, TexelLight};
 use crate::math::distribution::PiecewiseConstant2D;
 use crate::math::warp::{
     UNIFORM_SPHERE_PDF, equal_area_sphere_to_square, equal_area_square_to_sphere, uniform_sphere,
@@ -10,6 +10,7 @@ use crate::math::warp::{
 use crate::math::{Dir, Point, Transform, Vec2, Vec3};
 use crate::spectrum::{Sampled, Spectrum, Wavelengths};
 use crate::units::{Density, PdfSolidAngle, Radiance};
+use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// Parallel light.
@@ -99,9 +100,14 @@ pub struct ImageInfiniteLight {
     render_from_light: Transform,
     light_from_render: Transform,
     picture: EmissionPicture,
+    /// The texels' spectra in the picture's order; none for pictures too large to keep them.
+    texels: Vec<TexelLight>,
     density: PiecewiseConstant2D,
     mean: Vec3,
 }
+
+/// Texels whose spectra are kept, at 16 bytes each: finding one takes longer than all else that a lookup does.
+const MOST_KEPT_SPECTRA: usize = 1 << 22;
 
 impl ImageInfiniteLight {
     /// A stated total is that of a plane facing +z of light space, by the upper half of the picture.
@@ -128,13 +134,24 @@ impl ImageInfiniteLight {
             }
         }
         let density = PiecewiseConstant2D::new(&importance, width as usize, height as usize);
-        Ok(Self { render_from_light, light_from_render: render_from_light.inverse(), picture, density, mean })
+        let n = width as usize * height as usize;
+        let texels = if n > MOST_KEPT_SPECTRA {
+            Vec::new()
+        } else {
+            let texel = |i: usize| {
+                let (x, y) = (i as u32 % width, i as u32 / width);
+                picture.emitted(picture.image().rgb(x, y).0.max(Vec3::ZERO))
+            };
+            (0..n).into_par_iter().map(texel).collect()
+        };
+        let light_from_render = render_from_light.inverse();
+        Ok(Self { render_from_light, light_from_render, picture, texels, density, mean })
     }
 
     pub(super) fn sample(&self, u: Vec2, w: &Wavelengths) -> Option<LightSample> {
         let (st, area_density) = self.density.sample(u);
         let wi = Dir::new(self.render_from_light.vector(equal_area_square_to_sphere(st)))?;
-        let radiance = self.picture.light(self.picture.nearest(st), w);
+        let radiance = self.radiance(st, w);
         if area_density <= 0.0 || radiance.is_zero() {
             return None;
         }
@@ -142,12 +159,20 @@ impl ImageInfiniteLight {
         Some(LightSample { wi, radiance, density, target: LightTarget::Infinite })
     }
 
+    fn radiance(&self, st: Vec2, w: &Wavelengths) -> Sampled<Radiance> {
+        let [x, y] = self.picture.nearest_index(st);
+        match self.texels.get(y as usize * self.picture.image().width() as usize + x as usize) {
+            Some(texel) => self.picture.texel_light(texel, w),
+            None => self.picture.light(self.picture.nearest(st), w),
+        }
+    }
+
     fn square(&self, wi: Dir) -> Option<Vec2> {
         self.light_from_render.direction(wi).map(|d| equal_area_sphere_to_square(*d))
     }
 
     pub(super) fn escaped(&self, wi: Dir, w: &Wavelengths) -> Sampled<Radiance> {
-        self.square(wi).map_or(Sampled::ZERO, |st| self.picture.light(self.picture.nearest(st), w))
+        self.square(wi).map_or(Sampled::ZERO, |st| self.radiance(st, w))
     }
 
     pub(super) fn density(&self, wi: Dir) -> PdfSolidAngle {

@@ -4,9 +4,16 @@ use super::normalise::Yield;
 use crate::color::{ColorSpace, Factored, Rgb, UpsamplingTable};
 use crate::image::{Image, Wrap};
 use crate::math::{Vec2, Vec3};
-use crate::spectrum::{Sampled, Spectrum, Wavelengths};
+use crate::spectrum::{LANES, Sampled, Sigmoid, Spectrum, Wavelengths};
 use crate::units::Radiance;
 use std::sync::Arc;
+
+/// The spectrum of one texel's light, as a filter of the picture's white.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TexelLight {
+    scale: f32,
+    sigmoid: Sigmoid,
+}
 
 /// An emitting picture; clones, and lights that show the same file, share its texels. Texel (1, 1, 1) is the white of its colour space, at unit photometric amount before scaling.
 #[derive(Clone, Debug)]
@@ -68,8 +75,15 @@ impl EmissionPicture {
 
     /// The texel that holds `st` in [0, 1]², t downwards; negative components are cut off.
     pub(super) fn nearest(&self, st: Vec2) -> Vec3 {
+        let [x, y] = self.nearest_index(st);
+        self.image.rgb(x, y).0.max(Vec3::ZERO)
+    }
+
+    /// Column and row of the texel that holds `st`.
+    #[inline]
+    pub(super) fn nearest_index(&self, st: Vec2) -> [u32; 2] {
         let index = |x: f32, n: u32| ((x * n as f32).max(0.0) as u32).min(n - 1);
-        self.image.rgb(index(st.x, self.image.width()), index(st.y, self.image.height())).0.max(Vec3::ZERO)
+        [index(st.x, self.image.width()), index(st.y, self.image.height())]
     }
 
     /// Interpolated texels at `st`, clamped at the edges; negative components are cut off.
@@ -79,13 +93,25 @@ impl EmissionPicture {
 
     /// The light of one triple.
     pub(super) fn light(&self, rgb: Vec3, w: &Wavelengths) -> Sampled<Radiance> {
+        if rgb.max_element() <= 0.0 { Sampled::ZERO } else { self.texel_light(&self.emitted(rgb), w) }
+    }
+
+    /// What stands for one triple, ready for any wavelength.
+    pub(super) fn emitted(&self, rgb: Vec3) -> TexelLight {
         let Factored { scale, shape } = Factored::new(Rgb(rgb));
-        if scale == 0.0 {
+        TexelLight { scale, sigmoid: self.upsampling.sigmoid(shape) }
+    }
+
+    /// The light of a texel.
+    #[inline]
+    pub(super) fn texel_light(&self, texel: &TexelLight, w: &Wavelengths) -> Sampled<Radiance> {
+        if texel.scale == 0.0 {
             return Sampled::ZERO;
         }
-        let sigmoid = self.upsampling.sigmoid(shape);
+        let scale = texel.scale * self.factor;
+        let filter: [f32; LANES] = w.lambda().map(|l| texel.sigmoid.at(l));
         let white: Sampled<Radiance> = self.white.sample(w);
-        Sampled::from_fn(|i| sigmoid.at(w.lambda()[i]) * white[i] * (scale * self.factor))
+        Sampled::from_fn(|i| filter[i] * white[i] * scale)
     }
 
     /// Relative luminance of a triple.

@@ -3,8 +3,10 @@
 use super::declared::Declared;
 use super::inputs::{CoatInput, Lookup, Metal, Roughness};
 use super::schema::{Arguments, Fault, Parameter};
-use crate::bsdf::{Bsdf, Diffuse, Layered, VarnishedDiffuse};
+use crate::bsdf::{Bsdf, Diffuse, Layered, RoughVarnish, Varnish, VarnishedDiffuse};
+use crate::spectrum::Sampled;
 use crate::texture::SpectrumInput;
+use std::sync::Arc;
 
 /// A dielectric coat over a Lambertian base.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +15,38 @@ pub struct CoatedDiffuseMaterial {
     pub reflectance: SpectrumInput,
     /// The coat.
     pub coat: CoatInput,
+    /// What is the same wherever the coat is met.
+    prepared: Prepared,
+}
+
+/// The coat's integrals, where it is the same everywhere.
+#[derive(Clone, Debug, PartialEq)]
+enum Prepared {
+    /// They depend on the place, or there is no closed form.
+    Nothing,
+    /// A smooth clear coat, over any base.
+    Smooth(VarnishedDiffuse),
+    /// A rough clear coat.
+    Rough(Arc<Varnish>),
+}
+
+impl Prepared {
+    fn new(coat: &CoatInput) -> Self {
+        let Some(coat) = coat.constant() else { return Self::Nothing };
+        let layers = Layered { coat, base: Diffuse { reflectance: Sampled::ZERO }, seed: 0 };
+        match VarnishedDiffuse::new(layers) {
+            Some(varnished) => Self::Smooth(varnished),
+            None => Varnish::new(&coat).map_or(Self::Nothing, |v| Self::Rough(Arc::new(v))),
+        }
+    }
+}
+
+impl CoatedDiffuseMaterial {
+    /// A coat over a base with the given reflectance, which is limited to [0, 1].
+    pub fn new(reflectance: SpectrumInput, coat: CoatInput) -> Self {
+        let prepared = Prepared::new(&coat);
+        Self { reflectance, coat, prepared }
+    }
 }
 
 impl Declared for CoatedDiffuseMaterial {
@@ -33,10 +67,8 @@ impl Declared for CoatedDiffuseMaterial {
 
     fn build(arguments: &Arguments) -> Result<Self, Fault> {
         let roughness = Roughness::from_arguments(arguments, ["roughness", "uroughness", "vroughness"]);
-        Ok(Self {
-            reflectance: arguments.spectrum("reflectance"),
-            coat: CoatInput::from_arguments(arguments, "eta", roughness),
-        })
+        let coat = CoatInput::from_arguments(arguments, "eta", roughness);
+        Ok(Self::new(arguments.spectrum("reflectance"), coat))
     }
 
     fn is_textured(&self) -> bool {
@@ -44,9 +76,15 @@ impl Declared for CoatedDiffuseMaterial {
     }
 
     fn scatterer<'a>(&'a self, lookup: &mut Lookup<'_>, seed: u64) -> Option<Bsdf<'a>> {
-        let base = Diffuse { reflectance: lookup.reflectance(&self.reflectance) };
-        let layers = Layered { coat: self.coat.at(lookup), base, seed };
-        Some(VarnishedDiffuse::new(layers).map_or(Bsdf::CoatedDiffuse(layers), Bsdf::VarnishedDiffuse))
+        let reflectance = lookup.reflectance(&self.reflectance);
+        Some(match &self.prepared {
+            Prepared::Smooth(varnished) => Bsdf::VarnishedDiffuse(varnished.over(reflectance, seed)),
+            Prepared::Rough(varnish) => Bsdf::RoughVarnish(RoughVarnish { varnish, reflectance, seed }),
+            Prepared::Nothing => {
+                let layers = Layered { coat: self.coat.at(lookup), base: Diffuse { reflectance }, seed };
+                VarnishedDiffuse::new(layers).map_or(Bsdf::CoatedDiffuse(layers), Bsdf::VarnishedDiffuse)
+            }
+        })
     }
 }
 

@@ -70,7 +70,10 @@ impl<'a> Lookup<'a> {
 
 /// The index at a wavelength [nm], positive.
 pub(super) fn index_at(eta: &Spectrum, lambda: f32) -> f32 {
-    let value = eta.at(lambda);
+    clamped_index(eta.at(lambda))
+}
+
+fn clamped_index(value: f32) -> f32 {
     // Zero stands for "no value" in scene files: a medium without contrast.
     if value > 0.0 { value.clamp(MIN_INDEX, MAX_INDEX) } else { 1.0 }
 }
@@ -261,6 +264,25 @@ impl CoatInput {
             || self.thickness.is_textured()
             || self.albedo.is_textured()
             || self.g.is_textured()
+    }
+
+    /// Its value, where it is the same everywhere and at all wavelengths, and nothing scatters between the layers.
+    pub(super) fn constant(&self) -> Option<Coat> {
+        let eta = self.eta.constant_value()?;
+        let [u, v] =
+            [self.roughness.u.constant()?, self.roughness.v.constant()?].map(|r| self.roughness.alpha(r));
+        if self.albedo.constant()?.constant_value()? != 0.0 {
+            return None;
+        }
+        Some(Coat {
+            interface: Dielectric { eta: clamped_index(eta), roughness: TrowbridgeReitz::new(u, v) },
+            thickness: self.thickness.constant()?.max(f32::MIN_POSITIVE),
+            albedo: Sampled::ZERO,
+            g: self.g.constant()?.clamp(-1.0, 1.0),
+            max_depth: self.max_depth,
+            samples: self.samples.max(1),
+            weights: self.weights,
+        })
     }
 
     /// Its value at a point.

@@ -103,6 +103,8 @@ impl AliasTable {
 pub struct PiecewiseConstant1D {
     f: Vec<f32>,
     cdf: Vec<f32>,
+    /// Cell that holds the start of each of n equal parts of [0, 1] of the cumulative density.
+    guide: Vec<u32>,
     integral: f32,
 }
 
@@ -134,7 +136,14 @@ impl PiecewiseConstant1D {
             *c = if sum > 0.0 { (f64::from(*c) / sum) as f32 } else { i as f32 / n as f32 };
         }
         cdf[n] = 1.0;
-        Self { f, cdf, integral }
+        let mut cell = 0;
+        let guide = (0..n).map(|g| {
+            while cell + 1 < n && cdf[cell + 1] <= g as f32 / n as f32 {
+                cell += 1;
+            }
+            cell as u32
+        });
+        Self { guide: guide.collect(), f, cdf, integral }
     }
 
     /// ∫ f over [0, 1].
@@ -145,7 +154,14 @@ impl PiecewiseConstant1D {
     /// Draws a position with density f/∫f.
     pub fn sample(&self, u: f32) -> Sample1D {
         let n = self.f.len();
-        let cell = self.cdf.partition_point(|&c| c <= u).clamp(1, n) - 1;
+        let mut cell = self.guide[((u * n as f32) as usize).min(n - 1)] as usize;
+        // Rounding can lead into the part after its own.
+        while cell > 0 && self.cdf[cell] > u {
+            cell -= 1;
+        }
+        while cell + 1 < n && self.cdf[cell + 1] <= u {
+            cell += 1;
+        }
         let width = self.cdf[cell + 1] - self.cdf[cell];
         let within = if width > 0.0 { ((u - self.cdf[cell]) / width).clamp(0.0, 1.0) } else { 0.5 };
         let x = ((cell as f32 + within) / n as f32).min(super::float::ONE_MINUS_EPSILON);

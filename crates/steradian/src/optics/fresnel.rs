@@ -87,6 +87,12 @@ impl Crossing {
         Self { reflectance: 0.5 * (s * s + p * p), eta, eta_cos_theta_t: a }
     }
 
+    /// |cosθt|, the cosine of refraction; zero for total reflection.
+    #[inline]
+    pub fn cos_theta_t(&self) -> f32 {
+        self.eta_cos_theta_t / self.eta
+    }
+
     /// The refracted unit direction of `w`, whose cosine to the unit normal `n` the crossing was made for,
     /// B (2.5)–(2.7); `None` for total reflection. Both point away from the interface.
     #[inline]

@@ -83,12 +83,13 @@ pub(super) fn lookup<R: Reading>(
     }
     let width = 2.0 * c.dstdx.abs().max(c.dstdy.abs()).max_element();
     let top = pyramid.n_levels() - 1;
-    let level = top as f32 + width.max(1e-8).log2();
-    if level >= top as f32 {
+    let width = width.max(1e-8);
+    if width >= 1.0 {
         return R::texel(pyramid.level(top), 0, 0, wrap);
     }
-    let floor = level.floor().max(0.0);
-    let (k, between) = (floor as usize, level - floor);
+    // ⌊log₂ width⌋, which the number is stored with.
+    let exponent = (width.to_bits() >> 23) as usize;
+    let k = (top + exponent).saturating_sub(127);
     let image = pyramid.level(k);
     match filter {
         ImageFilter::Point => {
@@ -97,6 +98,7 @@ pub(super) fn lookup<R: Reading>(
             R::texel(image, nearest.x as i32, nearest.y as i32, wrap)
         }
         ImageFilter::Trilinear if k > 0 => {
+            let between = width.log2() - (exponent as f32 - 127.0);
             R::bilerp(image, st, wrap) * (1.0 - between) + R::bilerp(pyramid.level(k + 1), st, wrap) * between
         }
         ImageFilter::Bilinear | ImageFilter::Trilinear | ImageFilter::Ewa { .. } => {

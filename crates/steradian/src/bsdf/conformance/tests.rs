@@ -49,6 +49,27 @@ fn no_specimen_claims_what_its_function_does_not() {
 }
 
 #[test]
+fn values_and_densities_at_once_are_those_one_by_one() {
+    let mut rng = Pcg32::new(4, 4);
+    for Specimen { name, bsdf, .. } in Bsdf::specimens(&Cabinet::default()) {
+        for _ in 0..50 {
+            let mut dir = || {
+                let u = Vec2::new(rng.next_f32(), rng.next_f32());
+                LocalDir::new_unchecked(warp::uniform_sphere(u))
+            };
+            let (wo, wi) = (dir(), dir());
+            for mode in [Mode::Radiance, Mode::Importance] {
+                let both = bsdf.evaluate(wo, wi, mode);
+                let f = bsdf.eval(wo, wi, mode);
+                let near = |a: f32, b: f32| (a - b).abs() <= 1e-5 * b.abs();
+                assert!((0..crate::spectrum::LANES).all(|i| near(both.f[i], f[i])), "{name}: {both:?} {f:?}");
+                assert!(near(both.pdf.0, bsdf.pdf(wo, wi, mode).0), "{name}: {both:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn false_claims_are_rejected() {
     let effort = Effort::QUICK;
     let rejects = |bsdf: Bsdf<'static>, claims, law| {

@@ -252,7 +252,7 @@ impl Pile {
         match self.elements[element] {
             Element::Run { .. } | Element::Mirror { .. } => None,
             Element::Rough { interface, .. } => {
-                let e = interface.evaluate(wo, wi, mode, Sides::Both)?;
+                let e = interface.evaluate_at(wo, wi, mode, Sides::Both)?;
                 Some(Value { f: Sampled::splat(e.f), pdf: e.pdf, reverse_pdf: e.reverse_pdf })
             }
             Element::Diffuse(base) => {
