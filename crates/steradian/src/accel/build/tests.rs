@@ -131,7 +131,7 @@ fn nothing_makes_an_empty_tree() {
 fn the_tree_is_the_same_for_any_number_of_threads() {
     // Enough for divisions by several threads, with zeros of both signs and ties.
     let n = (divide::SHARED * 2) as u32;
-    let on_grid = |i: u32| (scattered(i) * 40.0).round() * if i % 2 == 0 { 0.5 } else { -0.5 };
+    let on_grid = |i: u32| (scattered(i) * 40.0).round() * if i.is_multiple_of(2) { 0.5 } else { -0.5 };
     let shapes =
         [soup(n, |i| [on_grid(i), on_grid(i) + Vec3::X * noise(i).powi(9), on_grid(i) + Vec3::Y * 0.1])];
     let with_threads = |threads: usize| {
