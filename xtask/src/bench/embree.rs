@@ -24,7 +24,6 @@ pub(crate) enum Edges {
     /// They may, rarely.
     Fast = 0,
     /// They may not.
-    #[expect(dead_code, reason = "the comparison of rays asks")]
     Robust = 4,
 }
 
@@ -132,7 +131,6 @@ impl Scene<'_> {
     }
 
     /// The scene, for queries.
-    #[expect(dead_code, reason = "the comparison of rays asks")]
     pub(crate) fn handle(&self) -> Handle {
         self.scene
     }

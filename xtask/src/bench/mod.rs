@@ -6,6 +6,7 @@ mod error;
 pub(crate) mod job;
 mod options;
 mod parse;
+mod rays;
 mod report;
 pub(crate) mod row;
 mod samples;
@@ -22,6 +23,7 @@ use std::process::Command;
 type Section = (&'static str, fn(&Path, &Options) -> Result<Vec<Row>, String>);
 
 const SECTIONS: &[Section] = &[
+    ("rays", rays::measure),
     ("build", build::measure),
     ("parse", parse::measure),
     ("samples", samples::measure),

@@ -222,14 +222,13 @@ pub(super) mod avx2 {
         let least = LEAST.max(STILL * size);
         let corner = bounds.min.abs().max(bounds.max.abs());
         let reach = 4.0 * (corner + ray.o.abs()).element_sum() / size;
-        for k in 0..4 {
-            let axis = k % 3;
-            if !(ray.d[axis].abs() >= least) {
-                let inverse = (1.0 / least).copysign(ray.d[axis]);
-                let offset = ray.o[axis] * inverse;
-                numbers[0][k] = inverse;
-                numbers[1][k] = offset;
-                numbers[2][k] = offset.abs() * ROUNDING + reach;
+        let [inverses, offsets, margins] = numbers;
+        for (k, ((inverse, offset), margin)) in inverses.iter_mut().zip(offsets).zip(margins).enumerate() {
+            let (o, d) = (ray.o[k % 3], ray.d[k % 3]);
+            if !(d.abs() >= least) {
+                *inverse = (1.0 / least).copysign(d);
+                *offset = o * *inverse;
+                *margin = offset.abs() * ROUNDING + reach;
             }
         }
     }

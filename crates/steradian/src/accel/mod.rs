@@ -9,6 +9,7 @@ mod adversarial;
 mod build;
 pub mod contract;
 mod kernel;
+mod pages;
 pub mod structure;
 mod traverse;
 #[cfg(test)]

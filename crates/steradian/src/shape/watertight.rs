@@ -129,11 +129,12 @@ impl Shear {
         // Projected along d and scaled by d_z, which saves a division and cancels.
         let project = |p: DVec3| [p.x * d.z - d.x * p.z, p.y * d.z - d.y * p.z];
         let (pa, pb, pc) = (project(a), project(b), project(c));
-        let area = |p: [f64; 2], q: [f64; 2]| ((p[0] * q[1] - p[1] * q[0]) * side_sign).max(0.0);
+        let area = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1] - p[1] * q[0]) * side_sign;
         let (mut u, mut v, mut w) = (area(pc, pb), area(pa, pc), area(pb, pa));
         let mut sum = u + v + w;
-        if !(sum > 0.0 && sum.is_finite()) {
-            // Exactly edge-on in f64 although the sheared f32 triangle has an area: keep the decision.
+        if !(u.min(v).min(w) >= 0.0 && sum > 0.0 && sum.is_finite()) {
+            // In f64 the ray passes beside the triangle, or sees it edge-on: keep the decision, and with it the place, which
+            // for a needle may be anywhere along it.
             [u, v, w] = self.edges(permuted).map(|e| e * side_sign);
             sum = u + v + w;
         }

@@ -4,6 +4,7 @@ use super::collapse::{Bundle, Chunk, Collapsed};
 use super::reference::{Reference, Subject};
 use super::segments::Segments;
 use crate::accel::contract::{AccelError, Coverage, Layout};
+use crate::accel::pages;
 use crate::accel::tree::{Child, Item, LANES, MixedLeaf, Owner, Packet, Target, Tree};
 use crate::math::Point;
 use crate::shape::{Shape, ShapeId};
@@ -50,7 +51,12 @@ pub(super) fn pack(
     if nodes > Child::MAX_PACKETS || packets > Child::MAX_PACKETS {
         return Err(AccelError::TooLarge { count: references.len() });
     }
-    let mut tree = Tree { depth: collapsed.depth, ..Tree::default() };
+    let mut tree = Tree {
+        nodes: pages::reserved(nodes),
+        packets: pages::reserved(packets),
+        depth: collapsed.depth,
+        ..Tree::default()
+    };
     let chunks = &collapsed.chunks;
     (0..nodes)
         .into_par_iter()
