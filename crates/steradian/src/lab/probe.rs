@@ -345,7 +345,7 @@ mod tests {
             MakeNamedMaterial \"frosted\" \"string type\" \"dielectric\" \"float roughness\" 0.4
             MakeNamedMaterial \"prism\" \"string type\" \"dielectric\" \"spectrum eta\" \"glass-SF11\"
             MakeNamedMaterial \"metal\" \"string type\" \"conductor\" \"float roughness\" 0.5
-            MakeNamedMaterial \"coat\" \"string type\" \"coateddiffuse\" \"float roughness\" 0.3
+            MakeNamedMaterial \"coat\" \"string type\" \"coateddiffuse\" \"float roughness\" 0.3 \"rgb albedo\" [0.5 0.5 0.5]
             MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" [\"paint\" \"metal\"]
             MakeNamedMaterial \"air\" \"string type\" \"interface\"";
         let input = Input::Text { name: "test", bytes: text.as_bytes(), base: Path::new("") };

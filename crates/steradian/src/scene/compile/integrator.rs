@@ -124,7 +124,9 @@ fn path(scene: &SceneDesc, risk: CausticRisk, diagnostics: &mut Diagnostics) -> 
 
 /// How lights are chosen: by what they may contribute at a point, unless the scene asks for something else.
 pub(super) fn selection(desc: &IntegratorDesc, diagnostics: &mut Diagnostics) -> Selection {
-    let (IntegratorKind::Path(p) | IntegratorKind::VolPath(p)) = desc.kind else { return Selection::Position };
+    let (IntegratorKind::Path(p) | IntegratorKind::VolPath(p)) = desc.kind else {
+        return Selection::Position;
+    };
     match p.light_sampler {
         Some(LightSamplerKind::Power) => Selection::Power,
         Some(LightSamplerKind::Uniform) => Selection::Uniform,
