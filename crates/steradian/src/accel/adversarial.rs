@@ -157,7 +157,7 @@ fn ball(columns: u32, scale: f32) -> Vec<[Vec3; 3]> {
     let corner = |i: u32, j: u32| {
         let (phi, theta) = (TAU * (i % columns) as f32 / columns as f32, PI * j as f32 / rows as f32);
         // At the poles all columns meet in one point.
-        let sin = if j % rows == 0 { 0.0 } else { theta.sin() };
+        let sin = if j.is_multiple_of(rows) { 0.0 } else { theta.sin() };
         Vec3::new(sin * phi.cos(), sin * phi.sin(), theta.cos()) * scale
     };
     let mut faces = Vec::new();
