@@ -1,7 +1,7 @@
 //! PLY meshes from bytes: ASCII and both binary orders, triangles and quadrilaterals.
 //!
-//! Files as programs write them go through [`regular`], which gives up at the first thing out of the ordinary; then
-//! [`general`] has the last word, and the words for what is wrong.
+//! Files as programs write them go through `regular`, which gives up at the first thing out of the ordinary; then
+//! `general` has the last word, and the words for what is wrong.
 
 mod general;
 mod header;
