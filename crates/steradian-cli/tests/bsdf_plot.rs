@@ -15,7 +15,7 @@ MakeNamedMaterial "tiles" "string type" "diffuse" "texture reflectance" "checks"
 MakeNamedMaterial "glass" "string type" "dielectric" "float eta" 1.5
 MakeNamedMaterial "gold" "string type" "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"
   "float roughness" 0.2
-MakeNamedMaterial "varnish" "string type" "coateddiffuse" "float roughness" 0.3
+MakeNamedMaterial "varnish" "string type" "coateddiffuse" "float roughness" 0.3 "rgb albedo" [0.5 0.5 0.5]
 MakeNamedMaterial "both" "string type" "mix" "string materials" [ "paint" "gold" ]
 Shape "plymesh" "string filename" "a-file-that-is-not-there.ply"
 "#;
