@@ -110,6 +110,17 @@ fn threads_and_the_order_of_tiles_leave_the_picture_as_it_is() {
 }
 
 #[test]
+fn the_instructions_of_the_processor_leave_the_picture_as_it_is() {
+    let tables = UpsamplingTables::new();
+    for sampler in [ZSOBOL, INDEPENDENT] {
+        let mut job = job(sampler, &tables);
+        let expected = bits(&rendered(&job));
+        job.scene = job.scene.portable();
+        assert!(bits(&rendered(&job)) == expected, "{sampler}");
+    }
+}
+
+#[test]
 fn compiling_again_gives_the_same_scene() {
     let (one, other) = (UpsamplingTables::new(), UpsamplingTables::new());
     assert!(bits(&rendered(&job(ZSOBOL, &one))) == bits(&rendered(&job(ZSOBOL, &other))));

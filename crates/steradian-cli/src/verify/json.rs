@@ -71,6 +71,7 @@ fn claims(c: &Claims) -> Value {
             Values::ClosedForm => "closed form",
             Values::Estimated => "estimated",
             Values::Biased => "biased",
+            Values::BiasedClosedForm => "biased closed form",
         },
     })
 }

@@ -88,7 +88,7 @@ impl RoughVarnish<'_> {
     pub fn claims(&self) -> Claims {
         match self.varnish.coat().weights {
             ExitWeights::Consistent => Claims::CLOSED_FORM,
-            ExitWeights::Pbrt4 => Claims::BIASED,
+            ExitWeights::Pbrt4 => Claims::BIASED_CLOSED_FORM,
         }
     }
 
@@ -166,7 +166,7 @@ mod tests {
     const CASES: [(f32, f32, u16, ExitWeights); 6] = [
         (0.1, 0.01, 10, ExitWeights::Consistent),
         (0.4, 0.3, 10, ExitWeights::Consistent),
-        (0.9, 0.01, 4, ExitWeights::Consistent),
+        (0.9, 0.01, 3, ExitWeights::Consistent),
         (0.02, 0.01, 10, ExitWeights::Pbrt4),
         (0.3, 0.01, 10, ExitWeights::Pbrt4),
         (0.7, 0.1, 100, ExitWeights::Pbrt4),
@@ -207,21 +207,27 @@ mod tests {
     fn sampled_energy_is_that_of_the_walk() {
         let reflectance = Sampled::splat(0.8);
         for (alpha, thickness, depth, weights) in CASES {
+            // A walk whose last event is at the base never leaves: its samples lack the last order that its values have.
+            let depth = depth & !1;
             let varnish = Varnish::new(&coat(alpha, thickness, depth, weights)).unwrap();
             let closed = RoughVarnish { varnish: &varnish, reflectance, seed: 5 };
-            let layers = closed.layers();
             let wo = LocalDir::new(Vec3::new(0.5, 0.2, -0.5)).unwrap();
-            let mut rng = Pcg32::new(3, 3);
-            let n = 60_000;
-            let (mut walk, mut form) = (0.0_f64, 0.0_f64);
-            for _ in 0..n {
-                let (uc, u) = (rng.next_f32(), Vec2::new(rng.next_f32(), rng.next_f32()));
-                let weight = |s: Option<BsdfSample>| s.map_or(0.0, |s| f64::from(s.weight[0])) / f64::from(n);
-                walk += weight(layers.sample(wo, uc, u, Mode::Radiance));
-                form += weight(closed.sample(wo, uc, u));
+            for max_depth in [depth, depth + 1] {
+                let mut layers = closed.layers();
+                layers.coat.max_depth = max_depth;
+                let mut rng = Pcg32::new(3, 3);
+                let n = 60_000;
+                let (mut walk, mut form) = (0.0_f64, 0.0_f64);
+                for _ in 0..n {
+                    let (uc, u) = (rng.next_f32(), Vec2::new(rng.next_f32(), rng.next_f32()));
+                    let weight =
+                        |s: Option<BsdfSample>| s.map_or(0.0, |s| f64::from(s.weight[0])) / f64::from(n);
+                    walk += weight(layers.sample(wo, uc, u, Mode::Radiance));
+                    form += weight(closed.sample(wo, uc, u));
+                }
+                // The walk's weights are zero or near one: standard error below 0.5/√n = 2.1e-3.
+                assert!((walk - form).abs() < 9e-3, "{alpha} {weights:?} {max_depth}: {walk} {form}");
             }
-            // The walk's weights are zero or near one: standard error below 0.5/√n = 2.1e-3.
-            assert!((walk - form).abs() < 9e-3, "{alpha} {weights:?}: {walk} {form}");
         }
     }
 }

@@ -45,6 +45,8 @@ pub enum Values {
     Estimated,
     /// Estimates that a named choice biases, so that values and samples disagree: it is shown and not judged.
     Biased,
+    /// The closed form of such estimates.
+    BiasedClosedForm,
 }
 
 impl Claims {
@@ -57,6 +59,9 @@ impl Claims {
     pub const ESTIMATED: Self = Self { values: Values::Estimated, ..Self::CLOSED_FORM };
     /// The same, with values that a named choice biases.
     pub const BIASED: Self = Self { values: Values::Biased, ..Self::CLOSED_FORM };
+
+    /// The closed form of such values.
+    pub const BIASED_CLOSED_FORM: Self = Self { values: Values::BiasedClosedForm, ..Self::CLOSED_FORM };
 
     /// The same claims with another one about energy.
     #[must_use]
@@ -72,10 +77,15 @@ impl Claims {
 
     /// Whether a named choice biases the values.
     pub fn has_named_bias(&self) -> bool {
-        self.values == Values::Biased
+        matches!(self.values, Values::Biased | Values::BiasedClosedForm)
     }
 
-    /// Whether values and densities are closed forms.
+    /// Whether values come about by random walks.
+    pub fn is_random(&self) -> bool {
+        matches!(self.values, Values::Estimated | Values::Biased)
+    }
+
+    /// Whether values and densities are closed forms, without a bias between them.
     pub fn is_closed_form(&self) -> bool {
         self.values == Values::ClosedForm
     }

@@ -67,7 +67,8 @@ impl Varnish {
     }
 }
 
-/// Σ ρ (ρ K)^k for the share K that returns to the base: as many orders as a walk of at most `max_depth` events has there.
+/// Σ ρ (ρ K)^k for the share K that returns to the base: as many orders as the values of a walk of at most `max_depth`
+/// events have. (Its samples have one less where that is odd: a walk whose last event is at the base never leaves.)
 #[inline]
 pub(super) fn sent_up(rho: Sampled<Unitless>, returned: f32, max_depth: u16) -> Sampled<Unitless> {
     let step = rho * returned;

@@ -143,7 +143,7 @@ impl<'j> Probe<'j> {
 
     /// Whether values are estimates by random walks.
     pub fn is_estimated(&self) -> bool {
-        self.parts.iter().any(|p| !p.bsdf.claims().is_closed_form())
+        self.parts.iter().any(|p| p.bsdf.claims().is_random())
     }
 
     /// Whether light may pass to the other side in a continuum of directions.
@@ -216,7 +216,7 @@ impl<'j> Probe<'j> {
 
 impl Part<'_> {
     fn f(&self, wo: LocalDir, wi: LocalDir, mode: Mode, walks: u32) -> Vec<Estimate> {
-        if self.bsdf.claims().is_closed_form() {
+        if !self.bsdf.claims().is_random() {
             let f = self.bsdf.eval(wo, wi, mode);
             return (0..self.lanes)
                 .map(|lane| Estimate { value: f64::from(f[lane]), half_width: 0.0 })
@@ -242,8 +242,7 @@ impl Part<'_> {
     }
 
     fn discrete(&self, w: LocalDir, mode: Mode) -> Vec<Vec<Discrete>> {
-        let found =
-            if self.bsdf.claims().is_closed_form() { self.chosen(w, mode) } else { self.met(w, mode) };
+        let found = if self.bsdf.claims().is_random() { self.met(w, mode) } else { self.chosen(w, mode) };
         let at_lane = |lane: usize| {
             let discrete =
                 |f: &Found| Discrete { direction: f.direction, side: f.side, ratio: f.ratio[lane] };

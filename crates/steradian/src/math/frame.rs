@@ -28,12 +28,14 @@ impl Frame {
         }
     }
 
-    /// A frame around `n` whose x axis is `x` made orthogonal to it (Gram–Schmidt); when `x` is parallel
-    /// to `n` or not finite, the tangents are those of [`Frame::from_z`].
+    /// A frame around `n` whose x axis is `x` made orthogonal to it (Gram–Schmidt, twice: the first difference of
+    /// vectors that are nearly parallel has lost its digits); when `x` is parallel to `n` or not finite, the tangents
+    /// are those of [`Frame::from_z`].
     #[inline]
     pub fn from_z_x(n: Normal, x: Vec3) -> Self {
         let n_vec: Vec3 = n.into();
-        match Dir::new(x - n_vec * n_vec.dot(x)) {
+        let orthogonal = |x: Vec3| Dir::new(x - n_vec * n_vec.dot(x));
+        match orthogonal(x).and_then(|s| orthogonal(*s)) {
             Some(s) => Self { s: *s, t: n_vec.cross(*s), n: n_vec },
             None => Self::from_z(n),
         }
@@ -56,6 +58,16 @@ impl Frame {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn an_axis_nearly_along_the_normal_still_gives_an_orthonormal_frame() {
+        let n = Normal::new(Vec3::new(0.3, -0.4, 0.8)).unwrap();
+        for tilt in [1e-1, 1e-3, 1e-5, 1e-6, 1e-7] {
+            let f = Frame::from_z_x(n, *n * 3.0 + Vec3::new(tilt, 0.0, 0.0));
+            assert!(f.s.dot(f.n).abs() < 1e-6 && f.s.dot(f.t).abs() < 1e-6, "{tilt}");
+            assert!((f.s.length() - 1.0).abs() < 1e-6 && (f.t.length() - 1.0).abs() < 1e-6, "{tilt}");
+        }
+    }
 
     proptest! {
         #[test]

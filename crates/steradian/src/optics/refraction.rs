@@ -77,9 +77,11 @@ mod tests {
                     prop_assert!((r.w.length() - 1.0).abs() < 1e-5);
                     // In one plane with the normal, and on the far side of it.
                     prop_assert!(n.cross(w).dot(r.w).abs() < 1e-5 && n.cross(w).dot(n.cross(r.w)) <= 1e-6);
-                    if n.dot(r.w).abs() > 0.05 {
+                    // A cosine follows from the square of its sine: near 90° its error is the rounding over the cosine.
+                    let least_cosine = n.dot(w).abs().min(n.dot(r.w).abs());
+                    if least_cosine > 0.05 {
                         let back = refract(r.w, n, eta).unwrap();
-                        prop_assert!((back.w - w).length() < 1e-4);
+                        prop_assert!((back.w - w).length() < 5e-6 / least_cosine);
                     }
                 }
                 None => {

@@ -180,6 +180,13 @@ impl Scene {
         &self.textures
     }
 
+    /// The same scene, whose rays and paths use the target's baseline instructions only.
+    #[must_use]
+    pub fn portable(mut self) -> Self {
+        self.accel = self.accel.portable();
+        self
+    }
+
     /// The acceleration structure.
     pub fn accel(&self) -> &Accel {
         &self.accel

@@ -152,7 +152,7 @@ impl<B: Scatterer> Bench<'_, B> {
         let averaged = Albedo::by_sampling(|uc, u| self.bsdf.sample(wi, uc, u, Mode::Importance));
         let own_error = match self.claims.values {
             _ if averaged != albedo => OwnError::None,
-            Values::ClosedForm => OwnError::Spaced,
+            Values::ClosedForm | Values::BiasedClosedForm => OwnError::Spaced,
             Values::Estimated | Values::Biased => OwnError::Random,
         };
         let power = Power {
@@ -272,7 +272,7 @@ impl<B: Scatterer> Bench<'_, B> {
     pub(super) fn of_values(&self) -> Expectation {
         match self.claims.values {
             Values::ClosedForm | Values::Estimated => Expectation::Holds,
-            Values::Biased => Expectation::Reported,
+            Values::Biased | Values::BiasedClosedForm => Expectation::Reported,
         }
     }
 }
