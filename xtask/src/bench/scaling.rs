@@ -137,11 +137,22 @@ fn room(count: usize) -> String {
 
 /// Processor time of this process so far, all threads [s].
 pub(super) fn processor_seconds() -> Result<f64, String> {
+    // User and system time are fields 14 and 15.
+    stat([11, 12])
+}
+
+/// Processor time of the processes that this one has started and that have ended [s].
+pub(super) fn children_seconds() -> Result<f64, String> {
+    stat([13, 14])
+}
+
+/// The sum of two times among the fields after the process's name.
+fn stat(of: [usize; 2]) -> Result<f64, String> {
     let stat =
         std::fs::read_to_string("/proc/self/stat").map_err(|_| "no processor times here".to_owned())?;
-    // The name in parentheses may hold spaces; user and system time are fields 14 and 15, in hundredths.
+    // The name in parentheses may hold spaces; times are in hundredths of a second.
     let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
     let field =
         |i: usize| fields.get(i).and_then(|f| f.parse::<f64>().ok()).ok_or("unreadable /proc/self/stat");
-    Ok((field(11)? + field(12)?) / 100.0)
+    Ok((field(of[0])? + field(of[1])?) / 100.0)
 }

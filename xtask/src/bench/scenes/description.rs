@@ -9,6 +9,8 @@ pub(super) struct Scene {
     pub(super) view: View,
     /// What stands in it.
     pub(super) objects: Vec<Object>,
+    /// Small lamps in it.
+    pub(super) lamps: Vec<Lamp>,
     /// Files of pictures, by name.
     pub(super) pictures: Vec<(&'static str, Picture)>,
     /// The surroundings, where there are any.
@@ -35,6 +37,14 @@ pub(super) struct Object {
     pub(super) material: Material,
     /// Radiance that it emits along its normals, as linear sRGB of unit luminance.
     pub(super) emission: Option<[f32; 3]>,
+}
+
+/// A shining ball.
+pub(super) struct Lamp {
+    pub(super) center: [f32; 3],
+    pub(super) radius: f32,
+    /// As [`Object::emission`].
+    pub(super) radiance: [f32; 3],
 }
 
 /// How a surface scatters.

@@ -2,7 +2,7 @@
 
 use super::description::{Color, Environment, Material, Object, Scene, View};
 use super::mesh::Mesh;
-use super::pictures::{Picture, tiles};
+use super::pictures::{HAZE, Picture, tiles};
 use std::f32::consts::{PI, TAU};
 
 pub(super) fn glass() -> Scene {
@@ -35,8 +35,8 @@ pub(super) fn glass() -> Scene {
     ];
     let pictures = vec![
         ("tiles.png", Picture::texture(512, tiles)),
-        ("sky-square.exr", Picture::sky_square(512)),
-        ("sky-latlong.exr", Picture::sky_latlong(512)),
+        ("sky-square.exr", Picture::sky_square(512, &HAZE)),
+        ("sky-latlong.exr", Picture::sky_latlong(512, &HAZE)),
     ];
     let view = View {
         eye: [0.4, 2.6, 7.2],
@@ -47,7 +47,7 @@ pub(super) fn glass() -> Scene {
         max_depth: 12,
     };
     let environment = Environment { square: "sky-square.exr", latlong: "sky-latlong.exr" };
-    Scene { view, objects, pictures, environment: Some(environment) }
+    Scene { view, objects, lamps: Vec::new(), pictures, environment: Some(environment) }
 }
 
 /// A glass on a foot: up the outside, down the inside.

@@ -1,8 +1,8 @@
-//! A furnished room, lit through a window and by panels under the ceiling.
+//! A furnished room: lit through a window and by panels under the ceiling, or by a sky with its sun through the window alone.
 
-use super::description::{Color, Material, Object, Scene, View};
+use super::description::{Color, Environment, Material, Object, Scene, View};
 use super::mesh::Mesh;
-use super::pictures::{Picture, carpet, fractal, noise, plaster, tiles, wood};
+use super::pictures::{AFTERNOON, Picture, carpet, fractal, noise, plaster, tiles, wood};
 use std::f32::consts::TAU;
 use steradian::math::hash::Pcg32;
 
@@ -10,6 +10,26 @@ use steradian::math::hash::Pcg32;
 const ROOM: [f32; 3] = [6.0, 2.8, 5.0];
 
 pub(super) fn interior() -> Scene {
+    let mut scene = room();
+    for (name, mesh, radiance) in lights() {
+        let black = Material::Diffuse(Color::Rgb([0.0; 3]));
+        scene.objects.push(Object { emission: Some(radiance), ..object(name, mesh, black) });
+    }
+    scene
+}
+
+/// The room under a sky whose sun shines onto the table.
+pub(super) fn by_day() -> Scene {
+    let mut scene = room();
+    scene.pictures.push(("afternoon-square.exr", Picture::sky_square(512, &AFTERNOON)));
+    scene.pictures.push(("afternoon-latlong.exr", Picture::sky_latlong(512, &AFTERNOON)));
+    scene.environment =
+        Some(Environment { square: "afternoon-square.exr", latlong: "afternoon-latlong.exr" });
+    scene
+}
+
+/// Without light.
+fn room() -> Scene {
     let mut objects = vec![
         object("floor", floor(), varnished("wood.png")),
         object("walls", walls(), Material::Diffuse(Color::Picture("plaster.png"))),
@@ -32,10 +52,6 @@ pub(super) fn interior() -> Scene {
     objects.push(object("books-b", books_b, book([0.06, 0.2, 0.14], 0.1)));
     objects.push(object("books-c", books_c, book([0.7, 0.6, 0.4], 0.0)));
     objects.push(object("books-d", books_d, Material::Diffuse(Color::Rgb([0.12, 0.14, 0.3]))));
-    for (name, mesh, radiance) in lights() {
-        let black = Material::Diffuse(Color::Rgb([0.0; 3]));
-        objects.push(Object { emission: Some(radiance), ..object(name, mesh, black) });
-    }
     let pictures = vec![
         ("wood.png", Picture::texture(1024, wood)),
         ("tiles.png", Picture::texture(512, tiles)),
@@ -50,7 +66,7 @@ pub(super) fn interior() -> Scene {
         height: 240,
         max_depth: 8,
     };
-    Scene { view, objects, pictures, environment: None }
+    Scene { view, objects, lamps: Vec::new(), pictures, environment: None }
 }
 
 /// A metal with the index of steel, roughly.

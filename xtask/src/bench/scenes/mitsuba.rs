@@ -38,6 +38,16 @@ fn describe(scene: &Scene, out: &mut String) -> std::fmt::Result {
             environment.latlong
         )?;
     }
+    for lamp in &scene.lamps {
+        writeln!(
+            out,
+            "<shape type=\"sphere\"><point name=\"center\" value=\"{}\"/><float name=\"radius\" value=\"{}\"/>\n\
+             <emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter></shape>",
+            list(&lamp.center),
+            lamp.radius,
+            list(&lamp.radiance)
+        )?;
+    }
     for object in &scene.objects {
         writeln!(out, "<shape type=\"ply\"><string name=\"filename\" value=\"{}.ply\"/>", object.name)?;
         // Rows are counted from the top there.

@@ -1,4 +1,4 @@
-//! Scenes of our own for the comparison with Mitsuba 3: made by rule, without third-party data, in both formats.
+//! Scenes of our own, made by rule, without third-party data, in our format and in Mitsuba 3's.
 //!
 //! What differs between the two renderings of one scene: Mitsuba multiplies two one-sided shadowing terms where we
 //! correlate heights, its rough coat transmits by a table that ignores absorption, bitmaps are interpolated at their finest
@@ -12,7 +12,9 @@ mod mesh;
 mod mitsuba;
 mod pbrt;
 mod pictures;
+mod plaza;
 mod solids;
+mod street;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,6 +26,12 @@ pub(crate) enum Kind {
     Interior,
     /// Glass and metal under an environment map.
     Glass,
+    /// A thousand lamps in a street at night.
+    Street,
+    /// The furnished room under a sky with its sun, through a window.
+    Daylight,
+    /// Sun, sky and some three hundred lamps.
+    Plaza,
 }
 
 impl Kind {
@@ -32,6 +40,9 @@ impl Kind {
         match self {
             Self::Interior => "interior",
             Self::Glass => "glass",
+            Self::Street => "street-at-night",
+            Self::Daylight => "room-by-day",
+            Self::Plaza => "plaza-at-sundown",
         }
     }
 }
@@ -60,6 +71,9 @@ pub(crate) fn write(kind: Kind, directory: &Path) -> Result<Written, String> {
     let scene = match kind {
         Kind::Interior => interior::interior(),
         Kind::Glass => glass::glass(),
+        Kind::Street => street::street(),
+        Kind::Daylight => interior::by_day(),
+        Kind::Plaza => plaza::plaza(),
     };
     for object in &scene.objects {
         put(&directory.join(format!("{}.ply", object.name)), &object.mesh.to_ply())?;
@@ -88,11 +102,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_scenes_compile_and_the_interior_has_its_triangles() {
+    #[ignore = "writes the scenes to look at into the folder target/bench/scenes"]
+    fn write_all() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/bench/scenes");
+        for kind in [Kind::Interior, Kind::Glass, Kind::Street, Kind::Daylight, Kind::Plaza] {
+            write(kind, &folder).unwrap();
+        }
+    }
+
+    #[test]
+    fn all_scenes_compile_and_hold_what_they_are_for() {
         use steradian::scene::Disk;
         use steradian::scene::import::pbrt::{Input, import};
         let directory = std::env::temp_dir().join(format!("steradian-scenes-{}", std::process::id()));
-        for kind in [Kind::Interior, Kind::Glass] {
+        for kind in [Kind::Interior, Kind::Glass, Kind::Street, Kind::Daylight, Kind::Plaza] {
             let written = write(kind, &directory).unwrap();
             let mut imported = import(&[Input::File(&written.pbrt)], &Disk);
             let job = imported
@@ -103,6 +126,12 @@ mod tests {
         }
         let triangles: usize = interior::interior().objects.iter().map(|o| o.mesh.triangles.len()).sum();
         assert!(triangles > 100_000, "{triangles}");
+        let emitters = |scene: description::Scene| {
+            let panes = scene.objects.iter().filter(|o| o.emission.is_some());
+            scene.lamps.len() + panes.map(|o| o.mesh.triangles.len()).sum::<usize>()
+        };
+        let (street, plaza) = (emitters(street::street()), emitters(plaza::plaza()));
+        assert!((900..1200).contains(&street) && (280..500).contains(&plaza), "{street} {plaza}");
         fs::remove_dir_all(&directory).unwrap();
     }
 }

@@ -29,6 +29,16 @@ fn describe(scene: &Scene, bounces: u32, out: &mut String) -> std::fmt::Result {
     for (name, _) in scene.pictures.iter().filter(|(name, _)| name.ends_with(".png")) {
         writeln!(out, "Texture \"{name}\" \"spectrum\" \"imagemap\" \"string filename\" \"{name}\"")?;
     }
+    for lamp in &scene.lamps {
+        writeln!(
+            out,
+            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ] AreaLightSource \"diffuse\" \"rgb L\" [ {} ]\n\
+             Translate {} Shape \"sphere\" \"float radius\" {} AttributeEnd",
+            list(&lamp.radiance),
+            list(&lamp.center),
+            lamp.radius
+        )?;
+    }
     for object in &scene.objects {
         writeln!(out, "AttributeBegin\n{}", material(&object.material))?;
         if let Some(radiance) = &object.emission {

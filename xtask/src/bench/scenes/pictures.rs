@@ -11,7 +11,7 @@ pub(super) struct Picture {
     size: [u32; 2],
     format: FrameFormat,
     /// Linear sRGB at (s, t), t downwards.
-    at: fn(f32, f32) -> [f32; 3],
+    at: Box<dyn Fn(f32, f32) -> [f32; 3]>,
     /// Evaluations along each side of a texel.
     sub: u32,
 }
@@ -19,22 +19,23 @@ pub(super) struct Picture {
 impl Picture {
     /// A texture of `side`² texels, in 8-bit sRGB.
     pub(super) fn texture(side: u32, at: fn(f32, f32) -> [f32; 3]) -> Self {
-        Self { size: [side, side], format: FrameFormat::Png, at, sub: 1 }
+        Self { size: [side, side], format: FrameFormat::Png, at: Box::new(at), sub: 1 }
     }
 
     /// The sky as an equal-area octahedral square, or by latitude and longitude.
-    pub(super) fn sky_square(side: u32) -> Self {
-        let at = |s, t| sky(equal_area_square_to_sphere(Vec2::new(s, t)));
-        Self { size: [side, side], format: FrameFormat::Exr(SampleDepth::Float), at, sub: 3 }
+    pub(super) fn sky_square(side: u32, sky: &'static Sky) -> Self {
+        let at = |s, t| sky.radiance(equal_area_square_to_sphere(Vec2::new(s, t)));
+        Self { size: [side, side], format: FrameFormat::Exr(SampleDepth::Float), at: Box::new(at), sub: 3 }
     }
 
     /// The sky as Mitsuba reads it: top row at +y, −z in the middle of the first column's left edge, azimuth towards +x.
-    pub(super) fn sky_latlong(height: u32) -> Self {
+    pub(super) fn sky_latlong(height: u32, sky: &'static Sky) -> Self {
         let at = |s: f32, t: f32| {
             let ((sin_p, cos_p), (sin_t, cos_t)) = ((TAU * s).sin_cos(), (PI * t).sin_cos());
-            sky(Vec3::new(sin_p * sin_t, cos_t, -cos_p * sin_t))
+            sky.radiance(Vec3::new(sin_p * sin_t, cos_t, -cos_p * sin_t))
         };
-        Self { size: [2 * height, height], format: FrameFormat::Exr(SampleDepth::Float), at, sub: 3 }
+        let format = FrameFormat::Exr(SampleDepth::Float);
+        Self { size: [2 * height, height], format, at: Box::new(at), sub: 3 }
     }
 
     /// The bytes of its file.
@@ -61,21 +62,76 @@ impl Picture {
     }
 }
 
-/// A clear sky with a broad sun, over a grey ground; y is up.
-fn sky(d: Vec3) -> [f32; 3] {
-    let sun = Vec3::new(0.55, 0.62, 0.56).normalize().dot(d);
-    let disc = smooth((sun - 0.990) / 0.004);
-    let halo = sun.max(0.0).powi(24);
-    if d.y < 0.0 {
-        return [0.22, 0.20, 0.18].map(|c| c * (1.0 + 0.3 * d.y));
+/// A sky with a sun and some clouds, over a plain ground; y is up.
+pub(super) struct Sky {
+    /// Towards the sun; any length.
+    sun: [f32; 3],
+    /// Cosines of the angles from the sun at which the disc ends and at which it is at its full radiance.
+    disc: [f32; 2],
+    light: [f32; 3],
+    /// Radiance around the sun over that of its disc, and how fast it falls.
+    halo: f32,
+    halo_power: i32,
+    zenith: [f32; 3],
+    /// What comes to the zenith's radiance at the horizon.
+    horizon: [f32; 3],
+    clouds: [f32; 3],
+    ground: [f32; 3],
+}
+
+/// A broad sun, as through haze.
+pub(super) const HAZE: Sky = Sky {
+    sun: [0.55, 0.62, 0.56],
+    disc: [0.990, 0.994],
+    light: [90.0, 80.0, 62.0],
+    halo: 0.02,
+    halo_power: 24,
+    zenith: [0.25, 0.42, 0.85],
+    horizon: [0.55, 0.45, 0.05],
+    clouds: [1.1, 1.08, 1.05],
+    ground: [0.22, 0.20, 0.18],
+};
+
+/// An afternoon. The disc has four times the sun's diameter, so that the picture resolves it, and as much less radiance: it
+/// gives as much light as the rest of the sky several times over.
+pub(super) const AFTERNOON: Sky = Sky {
+    sun: [-0.80, 0.52, 0.22],
+    disc: [0.99978, 0.99985],
+    light: [16_000.0, 14_000.0, 10_500.0],
+    halo: 1.5e-4,
+    halo_power: 60,
+    ..HAZE
+};
+
+/// The last of the sun, when lamps are lit already.
+pub(super) const EVENING: Sky = Sky {
+    sun: [-0.75, 0.13, 0.55],
+    disc: [0.99978, 0.99985],
+    light: [1500.0, 620.0, 160.0],
+    halo: 6e-4,
+    halo_power: 10,
+    zenith: [0.06, 0.09, 0.22],
+    horizon: [0.30, 0.16, 0.10],
+    clouds: [0.40, 0.22, 0.20],
+    ground: [0.03, 0.03, 0.03],
+};
+
+impl Sky {
+    fn radiance(&self, d: Vec3) -> [f32; 3] {
+        if d.y < 0.0 {
+            return self.ground.map(|c| c * (1.0 + 0.3 * d.y));
+        }
+        let sun = Vec3::from(self.sun).normalize().dot(d);
+        let [rim, full] = self.disc;
+        let disc = smooth((sun - rim) / (full - rim));
+        let halo = sun.max(0.0).powi(self.halo_power);
+        let low = (1.0 - d.y).powi(3);
+        let clouds = smooth((fractal(d.x * 3.0, d.z * 3.0, 5) - 0.5) * 3.0) * smooth(d.y * 3.0);
+        std::array::from_fn(|c| {
+            let clear = self.zenith[c] + self.horizon[c] * low;
+            clear * (1.0 - clouds) + self.clouds[c] * clouds + self.light[c] * (disc + self.halo * halo)
+        })
     }
-    let low = (1.0 - d.y).powi(3);
-    let clouds = smooth((fractal(d.x * 3.0, d.z * 3.0, 5) - 0.5) * 3.0) * smooth(d.y * 3.0);
-    let clear = [0.25 + 0.55 * low, 0.42 + 0.45 * low, 0.85 + 0.05 * low];
-    let (white, light) = ([1.1, 1.08, 1.05], [90.0, 80.0, 62.0]);
-    std::array::from_fn(|c| {
-        clear[c] * (1.0 - clouds) + white[c] * clouds + light[c] * disc + 0.02 * light[c] * halo
-    })
 }
 
 /// Boards of brown wood, with grain along s; repeats at the unit square.
