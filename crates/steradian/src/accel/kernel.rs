@@ -3,9 +3,12 @@
 //! Both kernels decide alike: the box test is conservative and only prunes, and the triangle test performs the same
 //! roundings in the same order, unfused, in both.
 
+#[cfg(target_arch = "x86_64")]
+use super::locate;
 use super::tree::{Child, LANES, Node, Packet, Tree, WIDTH};
 use crate::math::{Bounds3, Ray, Vec3, float};
-use crate::shape::watertight::{self, Shear};
+use crate::shape::PrimHit;
+use crate::shape::watertight::{self, Shear, Side};
 
 /// A ray prepared for box tests by differences: (plane − o)/d.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +38,8 @@ pub(super) struct Lanes {
     pub(super) positive: u32,
     /// Of these, which edge functions are all negative, and so exactly.
     pub(super) negative: u32,
+    /// Of these, which are met for certain and by nobody's leave, as far as the kernel finds out.
+    pub(super) certain: u32,
 }
 
 pub(super) trait Kernel: Copy {
@@ -53,6 +58,9 @@ pub(super) trait Kernel: Copy {
 
     /// Which triangles the ray may meet in (0, `t_max`]: a superset of those that [`Shear::intersect`] accepts.
     fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> Lanes;
+
+    /// Where the ray meets the triangle in a lane of `packet`, from a side that is decided: [`Shear::locate`].
+    fn locate(self, packet: &Packet, lane: usize, shear: &Shear, side: Side, t_max: f32) -> Option<PrimHit>;
 
     /// Starts loading a node or the first packet of a leaf that will be needed soon.
     fn prefetch(self, tree: &Tree, child: Child);
@@ -143,7 +151,7 @@ impl Kernel for Portable {
         type Projected = ([f32; LANES], [f32; LANES], [f32; LANES]);
         let edge = |p: &Projected, q: &Projected, i: usize| p.0[i] * q.1[i] - p.1[i] * q.0[i];
         let limit = t_max * EXIT_SLACK;
-        let mut lanes = Lanes { met: 0, positive: 0, negative: 0 };
+        let mut lanes = Lanes { met: 0, positive: 0, negative: 0, certain: 0 };
         for i in 0..LANES {
             let (u, v, w) = (edge(&c, &b, i), edge(&a, &c, i), edge(&b, &a, i));
             let t = [a.2[i], b.2[i], c.2[i]].map(|z| z * shear.inverse_z);
@@ -155,6 +163,11 @@ impl Kernel for Portable {
             lanes.negative |= u32::from(u < 0.0 && v < 0.0 && w < 0.0) << i;
         }
         lanes
+    }
+
+    #[inline(always)]
+    fn locate(self, packet: &Packet, lane: usize, shear: &Shear, side: Side, t_max: f32) -> Option<PrimHit> {
+        shear.locate(&packet.permuted_triangle(lane, shear.axes), side, t_max)
     }
 
     #[inline(always)]
@@ -171,8 +184,8 @@ pub(super) mod avx2 {
     )]
 
     use super::{
-        Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, Ray, Shear, Tree,
-        float, watertight,
+        Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, PrimHit, Ray, Shear,
+        Side, Tree, float, locate, watertight,
     };
     use std::arch::x86_64::*;
 
@@ -252,6 +265,19 @@ pub(super) mod avx2 {
         fn triangles(self, packet: &Packet, shear: &Shear, t_max: f32) -> Lanes {
             // SAFETY: a value of this type exists only where AVX2 was detected.
             unsafe { triangles(packet, shear, t_max) }
+        }
+
+        #[inline(always)]
+        fn locate(
+            self,
+            packet: &Packet,
+            lane: usize,
+            shear: &Shear,
+            side: Side,
+            t_max: f32,
+        ) -> Option<PrimHit> {
+            // SAFETY: a value of this type exists only where AVX2 and FMA were detected.
+            unsafe { locate::locate(packet, lane, shear, side, t_max) }
         }
 
         #[inline(always)]
@@ -382,7 +408,7 @@ pub(super) mod avx2 {
         let missed = _mm_and_ps(_mm_and_ps(_mm_cmplt_ps(least, zero), _mm_cmpgt_ps(most, zero)), ordered);
         let passed = !(_mm_movemask_ps(missed) as u32) & 0xf;
         if passed == 0 {
-            return Lanes { met: 0, positive: 0, negative: 0 };
+            return Lanes { met: 0, positive: 0, negative: 0, certain: 0 };
         }
         // Depths along the ray: the axis z itself may run against it.
         let inverse = _mm_set1_ps(shear.inverse_z);
@@ -403,14 +429,24 @@ pub(super) mod avx2 {
         // Seen from the side from which the edge functions are positive and along +z.
         let negative = _mm_cmplt_ps(most, zero);
         let side = _mm_xor_ps(_mm_and_ps(negative, sign), _mm_and_ps(inverse, sign));
-        let behind = _mm_cmplt_ps(_mm_xor_ps(depth, side), _mm_sub_ps(zero, error));
+        let depth = _mm_xor_ps(depth, side);
+        let behind = _mm_cmplt_ps(depth, _mm_sub_ps(zero, error));
         let one_sided = _mm_or_ps(negative, _mm_cmpgt_ps(least, zero));
         let out = _mm_or_ps(_mm_and_ps(behind, one_sided), beyond);
         let ordered = _mm_movemask_ps(ordered) as u32;
+        let met = passed & !(_mm_movemask_ps(out) as u32);
+        // In front by more than twice the rounding, so that the exact test has no doubt either.
+        let farthest = _mm_max_ps(_mm_max_ps(ta, tb), tc);
+        let before = _mm_cmplt_ps(_mm_mul_ps(farthest, _mm_set1_ps(EXIT_SLACK)), _mm_set1_ps(t_max));
+        let ahead = _mm_cmpgt_ps(depth, _mm_add_ps(error, error));
+        let certain = _mm_movemask_ps(_mm_and_ps(_mm_and_ps(one_sided, before), ahead)) as u32;
+        // SAFETY: an owner is 32 bits whose highest says that its hits are filtered, as that of unused lanes does.
+        let owners = unsafe { _mm_load_ps(packet.owners.as_ptr().cast()) };
         Lanes {
-            met: passed & !(_mm_movemask_ps(out) as u32),
+            met,
             positive: _mm_movemask_ps(_mm_cmpgt_ps(least, zero)) as u32 & ordered,
             negative: _mm_movemask_ps(negative) as u32 & ordered,
+            certain: met & certain & ordered & !(_mm_movemask_ps(owners) as u32),
         }
     }
 }

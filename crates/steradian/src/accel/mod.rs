@@ -9,6 +9,7 @@ mod adversarial;
 mod build;
 pub mod contract;
 mod kernel;
+mod locate;
 mod pages;
 pub mod structure;
 mod traverse;
@@ -108,13 +109,13 @@ impl Accel {
     /// Among equally near hits the one with the lowest (instance, shape, primitive) wins.
     #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f32, filter: &impl Fn(&Candidate) -> bool) -> Option<Hit> {
-        traverse::query::<false, _>(self, ray, t_max, filter)
+        traverse::nearest(self, ray, t_max, filter)
     }
 
     /// Whether anything that `filter` accepts lies at 0 < t < `t_max`.
     #[inline]
     pub fn occluded(&self, ray: &Ray, t_max: f32, filter: &impl Fn(&Candidate) -> bool) -> bool {
-        traverse::query::<true, _>(self, ray, t_max, filter).is_some()
+        traverse::any(self, ray, t_max, filter)
     }
 
     /// Differential geometry at `hit`, in render space. `shapes` are those of [`Accel::build`].

@@ -56,8 +56,9 @@ impl<F: Fn(&Hit) -> bool> Query<'_, F> {
 
     /// Locates the hits on the triangles that the packet test left over.
     #[inline(always)]
-    fn offer_lanes<const ANY: bool>(
+    fn offer_lanes<K: Kernel, const ANY: bool>(
         &mut self,
+        kernel: K,
         packet: &Packet,
         lanes: Lanes,
         shear: &Shear,
@@ -71,17 +72,16 @@ impl<F: Fn(&Hit) -> bool> Query<'_, F> {
             if owner == Owner::NONE {
                 continue;
             }
-            let corners = packet.permuted_triangle(lane, shear.axes);
             let side = if lanes.positive >> lane & 1 != 0 {
                 Side::Positive
             } else if lanes.negative >> lane & 1 != 0 {
                 Side::Negative
-            } else if let Some(side) = shear.exact_side(&corners) {
+            } else if let Some(side) = shear.exact_side(&packet.permuted_triangle(lane, shear.axes)) {
                 side
             } else {
                 continue;
             };
-            if let Some(h) = shear.locate(&corners, side, self.t_max)
+            if let Some(h) = kernel.locate(packet, lane, shear, side, self.t_max)
                 && self.offer::<ANY>(h, owner, packet.prims[lane], instance) == Verdict::Done
             {
                 return Verdict::Done;
@@ -212,6 +212,15 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
                 current = child(first);
                 continue;
             }
+            if ANY {
+                // Any hit will do, and most rays that ask for one have none: the order is not worth a sort.
+                while mask != 0 {
+                    stack.push(Pending::new(child(mask), 0.0));
+                    mask &= mask - 1;
+                }
+                current = child(first);
+                continue;
+            }
             // Which children are hit is hard to foretell for the processor: few branches, and sorting without any.
             let (a, b) = pending(first).sorted(pending(mask));
             mask &= mask - 1;
@@ -248,6 +257,9 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
             // SAFETY: the builder refers only to packets that it has made.
             let packet = unsafe { tree.packets.get_unchecked(index as usize) };
             let lanes = kernel.triangles(packet, &shear, query.t_max);
+            if ANY && lanes.certain != 0 {
+                return Verdict::Done;
+            }
             if lanes.met != 0
                 && kernel.offer_lanes::<ANY, F>(query, packet, lanes, &shear, instance) == Verdict::Done
             {
@@ -348,7 +360,7 @@ impl Engine for Portable {
         shear: &Shear,
         instance: Option<InstanceId>,
     ) -> Verdict {
-        query.offer_lanes::<ANY>(packet, lanes, shear, instance)
+        query.offer_lanes::<Self, ANY>(self, packet, lanes, shear, instance)
     }
 
     fn unprepared<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
@@ -401,16 +413,17 @@ impl Engine for Avx2 {
         #[inline(never)]
         #[target_feature(enable = "avx2,fma")]
         fn compiled<const ANY: bool, F: Fn(&Hit) -> bool>(
+            kernel: Avx2,
             query: &mut Query<'_, F>,
             packet: &Packet,
             lanes: Lanes,
             shear: &Shear,
             instance: Option<InstanceId>,
         ) -> Verdict {
-            query.offer_lanes::<ANY>(packet, lanes, shear, instance)
+            query.offer_lanes::<Avx2, ANY>(kernel, packet, lanes, shear, instance)
         }
         // SAFETY: a value of `Avx2` exists only where AVX2 and FMA were detected.
-        unsafe { compiled::<ANY, F>(query, packet, lanes, shear, instance) }
+        unsafe { compiled::<ANY, F>(self, query, packet, lanes, shear, instance) }
     }
 
     #[cold]
@@ -426,19 +439,29 @@ impl Engine for Avx2 {
     }
 }
 
-/// The nearest (or, for `ANY`, some) hit of `ray` with 0 < t < `t_max` in the world.
+/// The nearest hit of `ray` with 0 < t < `t_max` in the world.
 #[inline]
-pub(super) fn query<const ANY: bool, F: Fn(&Hit) -> bool>(
+pub(super) fn nearest<F: Fn(&Hit) -> bool>(accel: &Accel, ray: &Ray, t_max: f32, filter: &F) -> Option<Hit> {
+    let mut query = Query { t_max, best: None, filter };
+    start::<false, F>(accel, ray, &mut query);
+    query.best
+}
+
+/// Whether `ray` hits anything with 0 < t < `t_max` in the world.
+#[inline]
+pub(super) fn any<F: Fn(&Hit) -> bool>(accel: &Accel, ray: &Ray, t_max: f32, filter: &F) -> bool {
+    start::<true, F>(accel, ray, &mut Query { t_max, best: None, filter }) == Verdict::Done
+}
+
+#[inline(always)]
+fn start<const ANY: bool, F: Fn(&Hit) -> bool>(
     accel: &Accel,
     ray: &Ray,
-    t_max: f32,
-    filter: &F,
-) -> Option<Hit> {
-    let mut query = Query { t_max, best: None, filter };
+    query: &mut Query<'_, F>,
+) -> Verdict {
     match accel.kernel {
-        KernelChoice::Portable => Portable.run::<ANY, true, F>(accel, &accel.world, ray, None, &mut query),
+        KernelChoice::Portable => Portable.run::<ANY, true, F>(accel, &accel.world, ray, None, query),
         #[cfg(target_arch = "x86_64")]
-        KernelChoice::Avx2(k) => k.run::<ANY, true, F>(accel, &accel.world, ray, None, &mut query),
-    };
-    query.best
+        KernelChoice::Avx2(k) => k.run::<ANY, true, F>(accel, &accel.world, ray, None, query),
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::contract::InstanceId;
 use crate::math::{Bounds3, Point, Vec3};
+use crate::shape::watertight::{Permuted, corner_lanes};
 use crate::shape::{Primitive, ShapeId};
 
 /// Children per node.
@@ -175,11 +176,8 @@ impl Packet {
 
     /// The corners with their coordinates in the order of `axes`.
     #[inline(always)]
-    pub(super) fn permuted_triangle(&self, lane: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
-        let [x, y, z] = axes;
-        let corner = |c: &[[f32; LANES]; 3]| [c[x][lane], c[y][lane], c[z][lane]];
-        let [a, b, c] = &self.corners;
-        [corner(a), corner(b), corner(c)]
+    pub(super) fn permuted_triangle(&self, lane: usize, axes: [usize; 3]) -> Permuted {
+        axes.map(|axis| corner_lanes(|k| self.corners[k][axis][lane]))
     }
 
     pub(super) fn used_lanes(&self) -> usize {

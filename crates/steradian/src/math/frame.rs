@@ -28,14 +28,18 @@ impl Frame {
         }
     }
 
-    /// A frame around `n` whose x axis is `x` made orthogonal to it (Gram–Schmidt, twice: the first difference of
-    /// vectors that are nearly parallel has lost its digits); when `x` is parallel to `n` or not finite, the tangents
-    /// are those of [`Frame::from_z`].
+    /// A frame around `n` whose x axis is `x` made orthogonal to it (Gram–Schmidt); when `x` is parallel
+    /// to `n` or not finite, the tangents are those of [`Frame::from_z`].
     #[inline]
     pub fn from_z_x(n: Normal, x: Vec3) -> Self {
         let n_vec: Vec3 = n.into();
-        let orthogonal = |x: Vec3| Dir::new(x - n_vec * n_vec.dot(x));
-        match orthogonal(x).and_then(|s| orthogonal(*s)) {
+        let orthogonal = |x: Vec3| x - n_vec * n_vec.dot(x);
+        let mut s = orthogonal(x);
+        if s.length_squared() < 1e-3 * x.length_squared() {
+            // The difference of nearly parallel vectors has lost its digits.
+            s = Dir::new(s).map_or(s, |s| orthogonal(*s));
+        }
+        match Dir::new(s) {
             Some(s) => Self { s: *s, t: n_vec.cross(*s), n: n_vec },
             None => Self::from_z(n),
         }

@@ -21,7 +21,7 @@ pub struct Shear {
     /// 1/d_z: turns depths into parametric distances, to relative accuracy 1.5 ε.
     pub inverse_z: f32,
     /// Direction in permuted axes.
-    d: [f32; 3],
+    pub d: [f32; 3],
 }
 
 /// Components of the direction below this part of the largest count as zero wherever it is decided what a ray passes:
@@ -38,8 +38,9 @@ pub enum Side {
 }
 
 impl Side {
+    /// 1 or −1.
     #[inline(always)]
-    fn sign(self) -> f64 {
+    pub fn sign(self) -> f64 {
         match self {
             Self::Positive => 1.0,
             Self::Negative => -1.0,
@@ -79,16 +80,14 @@ impl Shear {
     /// Intersects the triangle `v` at 0 < t ≤ `t_max`; `None` also for a triangle that is degenerate or seen edge-on.
     #[inline]
     pub fn intersect(&self, v: [Point; 3], t_max: f32) -> Option<PrimHit> {
-        let permuted = v.map(|p| {
-            let p = p.0.to_array();
-            self.axes.map(|axis| p[axis])
-        });
+        let corners = v.map(|p| p.0.to_array());
+        let permuted = self.axes.map(|axis| corner_lanes(|k| corners[k][axis]));
         self.locate(&permuted, self.exact_side(&permuted)?, t_max)
     }
 
     /// From which side the ray passes a triangle, its coordinates in the order of [`Shear::axes`], by the exact signs
     /// of the edge functions; `None` when it misses, or when all three vanish and there is nothing to hit.
-    pub fn exact_side(&self, permuted: &[[f32; 3]; 3]) -> Option<Side> {
+    pub fn exact_side(&self, permuted: &Permuted) -> Option<Side> {
         let [u, v, w] = self.edges(permuted);
         let (negative, positive) = ((u < 0.0) | (v < 0.0) | (w < 0.0), (u > 0.0) | (v > 0.0) | (w > 0.0));
         match (positive, negative) {
@@ -99,50 +98,99 @@ impl Shear {
     }
 
     /// The edge functions with their exact signs.
-    fn edges(&self, permuted: &[[f32; 3]; 3]) -> [f64; 3] {
-        let [a, b, c] = permuted.map(|p| self.project(p));
+    fn edges(&self, [x, y, z]: &Permuted) -> [f64; 3] {
+        let [a, b, c] = [0, 1, 2].map(|k| self.project([x[k], y[k], z[k]]));
         [edge(c, b), edge(a, c), edge(b, a)]
     }
 
     /// Distance and barycentrics where the ray passes a triangle, its coordinates in the order of [`Shear::axes`],
     /// from `side`, which is decided already; `None` unless 0 < t ≤ `t_max` and the origin lies in front.
     #[inline(always)]
-    pub fn locate(&self, permuted: &[[f32; 3]; 3], side: Side, t_max: f32) -> Option<PrimHit> {
-        let wide = |p: [f32; 3]| DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]));
-        let (o, d) = (wide(self.origin), wide(self.d));
-        let [a, b, c] = permuted.map(|p| wide(p) - o);
+    pub fn locate(&self, permuted: &Permuted, side: Side, t_max: f32) -> Option<PrimHit> {
+        let d = self.d.map(f64::from);
+        // A lane per corner, relative to the origin.
+        let relative = |axis: usize| {
+            let o = f64::from(self.origin[axis]);
+            four(|k| f64::from(permuted[axis][k]) - o)
+        };
+        let (x, y, z) = (relative(0), relative(1), relative(2));
+        // Projected along d and scaled by d_z, which saves a division and cancels.
+        let (px, py) = (four(|k| x[k] * d[2] - d[0] * z[k]), four(|k| y[k] * d[2] - d[1] * z[k]));
+        // The edge function opposite to each corner.
+        let (before, after) = ([2, 0, 1, 2], [1, 2, 0, 1]);
+        let sign = side.sign();
+        let areas = four(|k| (px[before[k]] * py[after[k]] - py[before[k]] * px[after[k]]) * sign);
+        let [mut u, mut v, mut w, _] = areas;
+        let mut sum = u + v + w;
+        let mut depth = u * z[0] + v * z[1] + w * z[2];
 
-        // The origin must be in front: the sign of n·(a − o) is used only when it exceeds its rounding bound, so
-        // that a ray that starts on the triangle does not meet it again.
+        // The origin must be in front: `depth` has the sign of t d_z where it exceeds its rounding.
+        let size = four(|k| larger(larger(x[k].abs(), y[k].abs()), z[k].abs()));
+        let size = larger(larger(size[0], size[2]), size[1]);
+        let rounding = (size * size * size) * (d[2] * d[2]) * ROUNDING_OF_DEPTH;
+        let is_inside = u.min(v).min(w) >= 0.0 && sum > 0.0 && sum.is_finite();
+        if !(is_inside && depth.abs() > rounding) {
+            if !self.is_in_front(permuted, sign) {
+                return None;
+            }
+            if !is_inside {
+                // In f64 the ray passes beside the triangle, or sees it edge-on: keep the decision, and with it the place,
+                // which for a needle may be anywhere along it.
+                [u, v, w] = self.edges(permuted).map(|e| e * sign);
+                sum = u + v + w;
+                depth = u * z[0] + v * z[1] + w * z[2];
+            }
+        }
+        let scale = 1.0 / (sum * d[2]);
+        let t = (depth * scale) as f32;
+        let inverse = scale * d[2];
+        (t > 0.0 && t <= t_max).then_some(PrimHit { t, u: (v * inverse) as f32, v: (w * inverse) as f32 })
+    }
+
+    /// Whether the plane of a triangle lies ahead, for n·d of the sign −`side`·sign(d_z): the edge functions sum to minus
+    /// twice the signed area seen along d.
+    ///
+    /// The sign of n·(a − o) counts only where it exceeds its rounding bound, so that a ray that starts on the triangle
+    /// does not meet it again.
+    #[cold]
+    fn is_in_front(&self, permuted: &Permuted, side: f64) -> bool {
+        const ROUNDING: f64 = 8.0 * f64::EPSILON;
+        let [a, b, c] = [0, 1, 2].map(|k| {
+            let relative = |axis: usize| f64::from(permuted[axis][k]) - f64::from(self.origin[axis]);
+            DVec3::new(relative(0), relative(1), relative(2))
+        });
         let (e1, e2) = (b - a, c - a);
         let distance = e1.cross(e2).dot(a);
         let (m1, m2) = (e1.abs(), e2.abs());
         let magnitude =
             DVec3::new(m1.y * m2.z + m1.z * m2.y, m1.z * m2.x + m1.x * m2.z, m1.x * m2.y + m1.y * m2.x);
-        const ROUNDING: f64 = 8.0 * f64::EPSILON;
-        // n·d has the sign −side·sign(d_z): the edge functions sum to minus twice the signed area seen along d.
-        let side_sign = side.sign();
-        if distance * -side_sign.copysign(side_sign * d.z) <= ROUNDING * magnitude.dot(a.abs()) {
-            return None;
-        }
-
-        // Projected along d and scaled by d_z, which saves a division and cancels.
-        let project = |p: DVec3| [p.x * d.z - d.x * p.z, p.y * d.z - d.y * p.z];
-        let (pa, pb, pc) = (project(a), project(b), project(c));
-        let area = |p: [f64; 2], q: [f64; 2]| (p[0] * q[1] - p[1] * q[0]) * side_sign;
-        let (mut u, mut v, mut w) = (area(pc, pb), area(pa, pc), area(pb, pa));
-        let mut sum = u + v + w;
-        if !(u.min(v).min(w) >= 0.0 && sum > 0.0 && sum.is_finite()) {
-            // In f64 the ray passes beside the triangle, or sees it edge-on: keep the decision, and with it the place, which
-            // for a needle may be anywhere along it.
-            [u, v, w] = self.edges(permuted).map(|e| e * side_sign);
-            sum = u + v + w;
-        }
-        let scale = 1.0 / (sum * d.z);
-        let t = ((u * a.z + v * b.z + w * c.z) * scale) as f32;
-        let inverse = scale * d.z;
-        (t > 0.0 && t <= t_max).then_some(PrimHit { t, u: (v * inverse) as f32, v: (w * inverse) as f32 })
+        distance * -side.copysign(side * f64::from(self.d[2])) > ROUNDING * magnitude.dot(a.abs())
     }
+}
+
+/// The coordinates of a triangle's corners, axis by axis in the order of [`Shear::axes`]; the fourth lane repeats the
+/// first, so that whole vectors can be loaded.
+pub type Permuted = [[f32; 4]; 3];
+
+/// A lane for each corner, and the first again.
+#[inline(always)]
+pub fn corner_lanes(coordinate: impl Fn(usize) -> f32) -> [f32; 4] {
+    [coordinate(0), coordinate(1), coordinate(2), coordinate(0)]
+}
+
+/// Bound on the rounding of the sum of areas times depths in [`Shear::locate`], per cube of the largest |coordinate| and
+/// square of d_z; 288 ε and the rounding of the sum itself, rounded up.
+pub const ROUNDING_OF_DEPTH: f64 = 512.0 * f64::EPSILON;
+
+/// The larger of two, as one instruction: the second where one is NaN.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn four(f: impl Fn(usize) -> f64) -> [f64; 4] {
+    [f(0), f(1), f(2), f(3)]
 }
 
 /// The edge function p × q, with the exact sign: products of two f32 are exact in f64, so the difference is
