@@ -66,10 +66,11 @@ pub(super) trait Kernel: Copy {
     fn prefetch(self, tree: &Tree, child: Child);
 }
 
-/// Bound on the rounding of [`Kernel::triangles`]'s Σ U z per cube of the largest |coordinate| of the sheared
-/// corners, in units of ε: of each sheared coordinate 4 (of at most twice the largest), of each edge function
-/// 2·(2·8) + 3·2, of each of the three products that and 1 more, and 3 of their sum; rounded up generously.
-const DEPTH_ERROR: f32 = 256.0 * float::MACHINE_EPSILON;
+/// Bound on the rounding of [`Kernel::triangles`]'s U + V + W, per product of the largest |sheared x or y| and its sum with
+/// the largest |z|: of each sheared coordinate 8 ε of that sum, of each edge function 4·8 and 3·2 of the product, 114 for
+/// three of them, and 2 for their sum. It is doubled, so that what lies beyond it leaves no doubt to the exact test either.
+/// Times the largest |z| it bounds the rounding of Σ U z, too: that adds 4 for each product and for the sum.
+const AREA_ERROR: f32 = 256.0 * float::MACHINE_EPSILON;
 
 /// The kernel that this processor runs, found once when the structure is built.
 #[derive(Clone, Copy, Debug)]
@@ -184,7 +185,7 @@ pub(super) mod avx2 {
     )]
 
     use super::{
-        Bounds3, Child, DEPTH_ERROR, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, PrimHit, Ray, Shear,
+        AREA_ERROR, Bounds3, Child, EXIT_SLACK, Entries, Kernel, Lanes, Node, Packet, PrimHit, Ray, Shear,
         Side, Tree, float, locate, watertight,
     };
     use std::arch::x86_64::*;
@@ -410,36 +411,47 @@ pub(super) mod avx2 {
         if passed == 0 {
             return Lanes { met: 0, positive: 0, negative: 0, certain: 0 };
         }
-        // Depths along the ray: the axis z itself may run against it.
-        let inverse = _mm_set1_ps(shear.inverse_z);
-        let (ta, tb, tc) = (_mm_mul_ps(a.2, inverse), _mm_mul_ps(b.2, inverse), _mm_mul_ps(c.2, inverse));
-        let nearest = _mm_min_ps(_mm_min_ps(ta, tb), tc);
-        let beyond = _mm_cmpgt_ps(nearest, _mm_set1_ps(t_max * EXIT_SLACK));
         let sign = _mm_set1_ps(-0.0);
-        let size = |p: (__m128, __m128, __m128)| {
-            _mm_max_ps(
-                _mm_max_ps(_mm_andnot_ps(sign, p.0), _mm_andnot_ps(sign, p.1)),
-                _mm_andnot_ps(sign, p.2),
-            )
-        };
-        let size = _mm_max_ps(_mm_max_ps(size(a), size(b)), size(c));
-        let error = _mm_mul_ps(_mm_mul_ps(_mm_mul_ps(size, size), size), _mm_set1_ps(DEPTH_ERROR));
-        let error = _mm_add_ps(error, _mm_set1_ps(f32::MIN_POSITIVE));
+        let size = |v: __m128| _mm_andnot_ps(sign, v);
+        let largest = |a: __m128, b: __m128, c: __m128| _mm_max_ps(_mm_max_ps(size(a), size(b)), size(c));
+        let across = _mm_max_ps(largest(a.0, b.0, c.0), largest(a.1, b.1, c.1));
+        let along = largest(a.2, b.2, c.2);
+        let least_positive = _mm_set1_ps(f32::MIN_POSITIVE);
+        let error = _mm_mul_ps(_mm_mul_ps(across, _mm_add_ps(across, along)), _mm_set1_ps(AREA_ERROR));
+        let error = _mm_add_ps(error, least_positive);
+        let depth_error = _mm_add_ps(_mm_mul_ps(error, along), least_positive);
         let depth = _mm_add_ps(_mm_add_ps(_mm_mul_ps(u, a.2), _mm_mul_ps(v, b.2)), _mm_mul_ps(w, c.2));
-        // Seen from the side from which the edge functions are positive and along +z.
+        // Seen from the side from which the edge functions are positive and along +z; the axis z itself may run against
+        // the ray.
+        let inverse = _mm_set1_ps(shear.inverse_z);
         let negative = _mm_cmplt_ps(most, zero);
         let side = _mm_xor_ps(_mm_and_ps(negative, sign), _mm_and_ps(inverse, sign));
         let depth = _mm_xor_ps(depth, side);
-        let behind = _mm_cmplt_ps(depth, _mm_sub_ps(zero, error));
         let one_sided = _mm_or_ps(negative, _mm_cmpgt_ps(least, zero));
-        let out = _mm_or_ps(_mm_and_ps(behind, one_sided), beyond);
+        let behind = _mm_cmplt_ps(depth, _mm_sub_ps(zero, depth_error));
+        // t lies between those of the corners, which is narrow for small triangles. For large ones it is depth / area:
+        // compared without dividing, and with room for products that leave the range of floats.
+        let (ta, tb, tc) = (_mm_mul_ps(a.2, inverse), _mm_mul_ps(b.2, inverse), _mm_mul_ps(c.2, inverse));
+        let far = _mm_set1_ps(t_max * EXIT_SLACK);
+        let area = size(_mm_add_ps(_mm_add_ps(u, v), w));
+        let scale = size(inverse);
+        let at_least = _mm_mul_ps(_mm_sub_ps(depth, depth_error), scale);
+        let over_far = _mm_add_ps(_mm_mul_ps(_mm_add_ps(area, error), far), least_positive);
+        let beyond = _mm_or_ps(
+            _mm_cmpgt_ps(_mm_min_ps(_mm_min_ps(ta, tb), tc), far),
+            _mm_and_ps(_mm_cmpgt_ps(at_least, over_far), _mm_cmplt_ps(at_least, _mm_set1_ps(f32::INFINITY))),
+        );
+        let out = _mm_and_ps(one_sided, _mm_or_ps(behind, beyond));
         let ordered = _mm_movemask_ps(ordered) as u32;
         let met = passed & !(_mm_movemask_ps(out) as u32);
-        // In front by more than twice the rounding, so that the exact test has no doubt either.
-        let farthest = _mm_max_ps(_mm_max_ps(ta, tb), tc);
-        let before = _mm_cmplt_ps(_mm_mul_ps(farthest, _mm_set1_ps(EXIT_SLACK)), _mm_set1_ps(t_max));
-        let ahead = _mm_cmpgt_ps(depth, _mm_add_ps(error, error));
-        let certain = _mm_movemask_ps(_mm_and_ps(_mm_and_ps(one_sided, before), ahead)) as u32;
+        let at_most = _mm_add_ps(_mm_mul_ps(_mm_add_ps(depth, depth_error), scale), least_positive);
+        let near = _mm_set1_ps(t_max * (1.0 / EXIT_SLACK));
+        let before = _mm_or_ps(
+            _mm_cmplt_ps(_mm_max_ps(_mm_max_ps(ta, tb), tc), near),
+            _mm_cmplt_ps(at_most, _mm_mul_ps(_mm_sub_ps(area, error), near)),
+        );
+        let seen = _mm_and_ps(_mm_cmpgt_ps(depth, depth_error), _mm_cmpgt_ps(area, error));
+        let certain = _mm_movemask_ps(_mm_and_ps(_mm_and_ps(one_sided, before), seen)) as u32;
         // SAFETY: an owner is 32 bits whose highest says that its hits are filtered, as that of unused lanes does.
         let owners = unsafe { _mm_load_ps(packet.owners.as_ptr().cast()) };
         Lanes {

@@ -1,6 +1,5 @@
 //! Where a ray meets a triangle, with AVX2: the roundings of [`Shear::locate`] with a lane for each corner.
 #![cfg(target_arch = "x86_64")]
-#![expect(unsafe_code, reason = "SIMD intrinsics need it")]
 
 use super::tree::Packet;
 use crate::shape::PrimHit;
@@ -39,17 +38,21 @@ pub(super) fn locate(packet: &Packet, lane: usize, shear: &Shear, side: Side, t_
     let size = _mm_cvtsd_f64(_mm_max_sd(size, _mm_unpackhi_pd(size, size)));
     let rounding = (size * size * size) * (dz * dz) * ROUNDING_OF_DEPTH;
     let inside = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GE_OQ>(areas, _mm256_setzero_pd())) == 0xf;
-    if !(inside && sum > 0.0 && sum.is_finite() && depth.abs() > rounding) {
-        return shear.locate(&packet.permuted_triangle(lane, shear.axes), side, t_max);
+    if !(inside && sum > 0.0 && sum < f64::INFINITY && depth.abs() > rounding) {
+        return with_care(packet, lane, shear, side, t_max);
     }
     let scale = 1.0 / (sum * dz);
     let t = (depth * scale) as f32;
     let inverse = scale * dz;
-    let [_, v, w, _]: [f64; 4] = {
-        let mut lanes = [0.0; 4];
-        // SAFETY: the array holds four f64.
-        unsafe { _mm256_storeu_pd(lanes.as_mut_ptr(), areas) };
-        lanes
-    };
-    (t > 0.0 && t <= t_max).then_some(PrimHit { t, u: (v * inverse) as f32, v: (w * inverse) as f32 })
+    let shares = _mm256_cvtpd_ps(_mm256_mul_pd(areas, _mm256_set1_pd(inverse)));
+    let share = |lane: __m128| _mm_cvtss_f32(lane);
+    let (u, v) = (share(_mm_shuffle_ps::<1>(shares, shares)), share(_mm_shuffle_ps::<2>(shares, shares)));
+    (t > 0.0 && t <= t_max).then_some(PrimHit { t, u, v })
+}
+
+/// The rare case in which the short way is in doubt.
+#[cold]
+#[inline(never)]
+fn with_care(packet: &Packet, lane: usize, shear: &Shear, side: Side, t_max: f32) -> Option<PrimHit> {
+    shear.locate(&packet.permuted_triangle(lane, shear.axes), side, t_max)
 }

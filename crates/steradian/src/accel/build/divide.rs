@@ -31,7 +31,8 @@ fn limb(mut part: Part<'_>, grain: usize, least_area: f32, bins: &mut Bins) -> L
     let count = part.references.len();
     // What few primitives cover much is above the branches, too, as far as it is not too deep: to move a wall matters.
     let is_wide = part.depth < WIDE_DEPTH && part.extent.boxes.half_area() > least_area;
-    if part.is_leaf() || (count <= grain && !is_wide) {
+    let is_done = if is_wide { part.is_leaf() && !part.gains_by_division(bins) } else { count <= grain };
+    if is_done {
         part.settle();
         return Limb::Branch(Grower::grow(part, bins));
     }

@@ -4,7 +4,7 @@
 //! threads.
 
 use super::binning::{Bins, Division, Mapping};
-use super::reference::{Extent, Reference};
+use super::reference::{Box4, Extent, Reference};
 use crate::accel::tree::{LANES, MAX_DEPTH};
 use rayon::prelude::*;
 
@@ -13,6 +13,9 @@ const SLICE: usize = 1 << 14;
 
 /// References that are enough to find a good division.
 const SAMPLE: usize = 1 << 17;
+
+/// Part of the area of a leaf below which its halves are leaves of their own.
+const GAIN: f32 = 0.8;
 
 /// A part of the references, about to be divided.
 #[derive(Debug)]
@@ -41,6 +44,20 @@ impl<'a> Part<'a> {
     #[inline(always)]
     pub(super) fn is_leaf(&self) -> bool {
         self.extent.tally.weight() <= LANES as u32
+    }
+
+    /// Whether rays would meet clearly less of its halves than of a leaf that holds all: packets are tested as a whole,
+    /// and two walls in one are tested by every ray in the room.
+    pub(super) fn gains_by_division(&self, bins: &mut Bins) -> bool {
+        let mapping = Mapping::new(&self.extent, self.references.len());
+        bins.clear(&mapping);
+        bins.add(self.references, 1, &mapping);
+        let Some(s) = bins.cheapest(&mapping) else { return false };
+        let area = |behind: bool| {
+            let half = self.references.iter().filter(|r| mapping.is_behind(r, &s) == behind);
+            half.fold(Box4::EMPTY, |reach, r| reach.union(r.as_box())).half_area()
+        };
+        area(false) + area(true) < GAIN * self.extent.boxes.half_area()
     }
 
     /// Moves the references to their place.
