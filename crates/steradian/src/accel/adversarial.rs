@@ -4,7 +4,8 @@
 use super::*;
 use crate::math::hash::Pcg32;
 use crate::math::{Point, Transform, Vec2, Vec3, warp};
-use crate::shape::{MeshData, Orientation, ShapeId, TriangleMesh};
+use crate::shape::curve::{Basis, Degree, Profile};
+use crate::shape::{Curve, CurveData, MeshData, Orientation, ShapeId, TriangleMesh};
 
 const OPAQUE: fn(&Candidate) -> bool = |_| true;
 
@@ -117,6 +118,55 @@ fn both_paths_meet_the_same_primitive_at_the_same_place_on_adversarial_input() {
         }
     }
     assert!(met > 4000, "{met}");
+}
+
+#[test]
+fn both_paths_meet_the_same_curve_at_the_same_place_on_adversarial_input() {
+    let mut rng = Pcg32::new(6, 11);
+    let mut met = 0;
+    for (case, scale) in [1e-18_f32, 1e-9, 1.0, 1e9, 1e18].into_iter().enumerate() {
+        let points: Vec<Vec3> = (0..91).map(|_| place(&mut rng)).collect();
+        let profile = [Profile::Flat, Profile::Ribbon, Profile::Cylinder][case % 3];
+        let data = CurveData {
+            points: points.iter().map(|p| Point(*p * scale)).collect(),
+            basis: Basis::Bezier,
+            degree: Degree::Cubic,
+            profile,
+            normals: if profile == Profile::Ribbon { vec![Vec3::Z; 31] } else { vec![] },
+            widths: [0.1 * scale, 0.0],
+            split_depth: 3,
+        };
+        let shapes = [Shape::Curve(Curve::new(data, &Transform::IDENTITY, Orientation::AsDefined).unwrap())];
+        let [accel, portable] = accels(&shapes);
+        for i in 0..1500_u32 {
+            let k = 3 * (rng.next_u32() as usize % 30);
+            let [a, b] = [points[k], points[k + 3]];
+            // At joints, along chords, along axes, and any way.
+            let (o, to) = match i % 4 {
+                0 => (place(&mut rng) * 2.0, a),
+                1 => (a * 2.0 - b, b),
+                2 => (Vec3::new(a.x, a.y, 2.0), a),
+                _ => (place(&mut rng) * 2.0, place(&mut rng)),
+            };
+            let length = [1.0, scale, 1e-12, 1e12][i as usize / 16 % 4];
+            let ray = Ray { o: Point(o * scale), d: (to - o) * length, time: 0.0 };
+            if ray.d == Vec3::ZERO {
+                continue;
+            }
+            let t_max = if i % 5 == 0 { scale / length } else { f32::INFINITY };
+            let expected = searched(&shapes[0], &ray, t_max);
+            met += u32::from(expected.is_some());
+            for accel in [&accel, &portable] {
+                assert_eq!(accel.intersect(&ray, t_max, &OPAQUE), expected, "scale {scale}: {ray:?}");
+                assert_eq!(
+                    accel.occluded(&ray, t_max, &OPAQUE),
+                    expected.is_some(),
+                    "scale {scale}: {ray:?}"
+                );
+            }
+        }
+    }
+    assert!(met > 1500, "{met}");
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! Finding what a ray meets: a bounding volume hierarchy with eight children per node.
 //!
-//! Triangles of all meshes lie in packets of four inside the leaves; other primitives and instances are leaf entries
-//! of their own. A ray runs alone, with AVX2 where the processor has it and portable code elsewhere; both give the
-//! same hits.
+//! Triangles of all meshes lie in packets of four inside the leaves, parts of curves in bunches of eight; other
+//! primitives and instances are leaf entries of their own. A ray runs alone, with AVX2 where the processor has it and
+//! portable code elsewhere; both give the same hits.
 
 #[cfg(test)]
 mod adversarial;
 mod build;
+mod bunch;
 pub mod contract;
 mod kernel;
 mod locate;

@@ -9,7 +9,7 @@ use super::contract::{Hit, InstanceId};
 use super::kernel::avx2::Avx2;
 use super::kernel::{EXIT_SLACK, Entries, Kernel, KernelChoice, Lanes, Portable};
 use super::structure::Accel;
-use super::tree::{Child, Item, MixedLeaf, Owner, Packet, STACK, Target, Tree, WIDTH};
+use super::tree::{Child, Item, Owner, Packet, STACK, Target, Tree, WIDTH};
 use crate::math::Ray;
 use crate::shape::watertight::{Shear, Side};
 use crate::shape::{PrimHit, ShapeId};
@@ -245,12 +245,21 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
             }
             current = nearest.child();
         };
-        let (first, count, mixed) = match leaf {
+        let (first, count) = match leaf {
             Target::Inner(_) => continue,
-            Target::Packets { first, count } => (first, count, None),
-            Target::Mixed(index) => {
-                let leaf = &tree.mixed[index as usize];
-                (leaf.first_packet, leaf.packet_count, Some(leaf))
+            Target::Packets { first, count } => (first, count),
+            Target::Item(index) => {
+                let item = &tree.items[index as usize];
+                if visit_item::<K, ANY, TOP, F>(kernel, accel, item, ray, instance, query) == Verdict::Done {
+                    return Verdict::Done;
+                }
+                continue;
+            }
+            Target::Bunch(index) => {
+                if kernel.visit_bunch::<ANY, F>(tree, index, ray, instance, query) == Verdict::Done {
+                    return Verdict::Done;
+                }
+                continue;
             }
         };
         for index in first..first + count {
@@ -266,41 +275,54 @@ fn trace<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
                 return Verdict::Done;
             }
         }
-        if let Some(leaf) = mixed
-            && visit_items::<K, ANY, TOP, F>(kernel, accel, tree, leaf, ray, instance, query) == Verdict::Done
-        {
-            return Verdict::Done;
-        }
     }
     Verdict::Continue
 }
 
-/// Intersects what a mixed leaf holds besides triangles. Out of line, as [`Query::offer_lanes`].
+/// Intersects what lies alone in a leaf. Out of line, as [`Query::offer_lanes`].
 #[inline(never)]
-fn visit_items<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
+fn visit_item<K: Engine, const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
     kernel: K,
     accel: &Accel,
-    tree: &Tree,
-    leaf: &MixedLeaf,
+    item: &Item,
     ray: &Ray,
     instance: Option<InstanceId>,
     query: &mut Query<'_, F>,
 ) -> Verdict {
-    for item in &tree.items[leaf.first_item as usize..(leaf.first_item + leaf.item_count) as usize] {
-        let verdict = match item {
-            Item::Prim { owner, prim, primitive } => match primitive.intersect(ray, query.t_max) {
-                Some(h) => query.offer::<ANY>(h, *owner, *prim, instance),
-                None => Verdict::Continue,
-            },
-            Item::Instance(id) if TOP => {
-                let placed = &accel.instances[id.0 as usize];
-                let object = &accel.objects[placed.object.0 as usize];
-                let object_ray = placed.object_ray(ray);
-                kernel.run::<ANY, false, F>(accel, object, &object_ray, Some(*id), query)
-            }
-            Item::Instance(_) => Verdict::Continue,
-        };
-        if verdict == Verdict::Done {
+    match item {
+        Item::Prim { owner, prim, primitive } => match primitive.intersect(ray, query.t_max) {
+            Some(h) => query.offer::<ANY>(h, *owner, *prim, instance),
+            None => Verdict::Continue,
+        },
+        Item::Instance(id) if TOP => {
+            let placed = &accel.instances[id.0 as usize];
+            let object = &accel.objects[placed.object.0 as usize];
+            let object_ray = placed.object_ray(ray);
+            kernel.run::<ANY, false, F>(accel, object, &object_ray, Some(*id), query)
+        }
+        Item::Instance(_) => Verdict::Continue,
+    }
+}
+
+/// Intersects the curves of a bunch that the ray may meet.
+#[inline(always)]
+fn visit_bunch<const ANY: bool, F: Fn(&Hit) -> bool>(
+    tree: &Tree,
+    index: u32,
+    ray: &Ray,
+    instance: Option<InstanceId>,
+    query: &mut Query<'_, F>,
+) -> Verdict {
+    let near = tree.bunches[index as usize].near(ray, query.t_max);
+    if near.is_empty() {
+        return Verdict::Continue;
+    }
+    let members = tree.members[index as usize];
+    for lane in near.take_while(|lane| *lane < members.count) {
+        if let Item::Prim { owner, prim, primitive } = &tree.items[(members.first + lane) as usize]
+            && let Some(h) = primitive.intersect(ray, query.t_max)
+            && query.offer::<ANY>(h, *owner, *prim, instance) == Verdict::Done
+        {
             return Verdict::Done;
         }
     }
@@ -326,6 +348,16 @@ trait Engine: Kernel {
         lanes: Lanes,
         shear: &Shear,
         instance: Option<InstanceId>,
+    ) -> Verdict;
+
+    /// [`visit_bunch`], out of line.
+    fn visit_bunch<const ANY: bool, F: Fn(&Hit) -> bool>(
+        self,
+        tree: &Tree,
+        index: u32,
+        ray: &Ray,
+        instance: Option<InstanceId>,
+        query: &mut Query<'_, F>,
     ) -> Verdict;
 
     /// What becomes of a ray that [`Kernel::prepare`] refuses.
@@ -361,6 +393,18 @@ impl Engine for Portable {
         instance: Option<InstanceId>,
     ) -> Verdict {
         query.offer_lanes::<Self, ANY>(self, packet, lanes, shear, instance)
+    }
+
+    #[inline(never)]
+    fn visit_bunch<const ANY: bool, F: Fn(&Hit) -> bool>(
+        self,
+        tree: &Tree,
+        index: u32,
+        ray: &Ray,
+        instance: Option<InstanceId>,
+        query: &mut Query<'_, F>,
+    ) -> Verdict {
+        visit_bunch::<ANY, F>(tree, index, ray, instance, query)
     }
 
     fn unprepared<const ANY: bool, const TOP: bool, F: Fn(&Hit) -> bool>(
@@ -424,6 +468,30 @@ impl Engine for Avx2 {
         }
         // SAFETY: a value of `Avx2` exists only where AVX2 and FMA were detected.
         unsafe { compiled::<ANY, F>(self, query, packet, lanes, shear, instance) }
+    }
+
+    #[inline(always)]
+    fn visit_bunch<const ANY: bool, F: Fn(&Hit) -> bool>(
+        self,
+        tree: &Tree,
+        index: u32,
+        ray: &Ray,
+        instance: Option<InstanceId>,
+        query: &mut Query<'_, F>,
+    ) -> Verdict {
+        #[inline(never)]
+        #[target_feature(enable = "avx2,fma")]
+        fn compiled<const ANY: bool, F: Fn(&Hit) -> bool>(
+            tree: &Tree,
+            index: u32,
+            ray: &Ray,
+            instance: Option<InstanceId>,
+            query: &mut Query<'_, F>,
+        ) -> Verdict {
+            visit_bunch::<ANY, F>(tree, index, ray, instance, query)
+        }
+        // SAFETY: a value of `Avx2` exists only where AVX2 and FMA were detected.
+        unsafe { compiled::<ANY, F>(tree, index, ray, instance, query) }
     }
 
     #[cold]

@@ -1,5 +1,6 @@
 //! Memory layout of the 8-wide tree and of its leaves.
 
+use super::bunch::Bunch;
 use super::contract::InstanceId;
 use crate::math::{Bounds3, Point, Vec3};
 use crate::shape::watertight::{Permuted, corner_lanes};
@@ -40,13 +41,17 @@ pub(super) enum Target {
         first: u32,
         count: u32,
     },
-    /// An entry of [`Tree::mixed`].
-    Mixed(u32),
+    /// An entry of [`Tree::items`].
+    Item(u32),
+    /// An entry of [`Tree::bunches`].
+    Bunch(u32),
 }
 
 impl Child {
     const LEAF: u32 = 1 << 31;
-    const MIXED: u32 = 1 << 30;
+    /// Leaves without triangles.
+    const OTHER: u32 = 1 << 30;
+    const BUNCH: u32 = 1 << 29;
     const COUNT_BITS: u32 = 3;
     /// Limits of the encoding.
     pub(super) const MAX_PACKETS: usize = 1 << (30 - Self::COUNT_BITS);
@@ -64,9 +69,14 @@ impl Child {
         Self(Self::LEAF | first << Self::COUNT_BITS | count)
     }
 
-    pub(super) fn mixed(index: u32) -> Self {
-        debug_assert!(index < Self::MIXED);
-        Self(Self::LEAF | Self::MIXED | index)
+    pub(super) fn item(index: u32) -> Self {
+        debug_assert!(index < Self::BUNCH);
+        Self(Self::LEAF | Self::OTHER | index)
+    }
+
+    pub(super) fn bunch(index: u32) -> Self {
+        debug_assert!(index < Self::BUNCH);
+        Self(Self::LEAF | Self::OTHER | Self::BUNCH | index)
     }
 
     #[inline(always)]
@@ -85,24 +95,42 @@ impl Child {
         Self(code)
     }
 
-    /// Where the node or the first packet begins, as a hint only: for a mixed leaf, somewhere.
+    /// Where the node or what the leaf holds begins, as a hint only.
     #[inline(always)]
     pub(super) fn address(self, tree: &Tree) -> *const i8 {
         let node = tree.nodes.as_ptr().wrapping_add(self.0 as usize).cast();
         let first = ((self.0 & !Self::LEAF) >> Self::COUNT_BITS) as usize;
         let packet = tree.packets.as_ptr().wrapping_add(first).cast();
-        if self.is_inner() { node } else { packet }
+        if self.is_inner() {
+            node
+        } else if self.0 & Self::OTHER == 0 {
+            packet
+        } else {
+            self.other_address(tree)
+        }
+    }
+
+    #[inline(always)]
+    fn other_address(self, tree: &Tree) -> *const i8 {
+        let index = (self.0 & (Self::BUNCH - 1)) as usize;
+        if self.0 & Self::BUNCH == 0 {
+            tree.items.as_ptr().wrapping_add(index).cast()
+        } else {
+            tree.bunches.as_ptr().wrapping_add(index).cast()
+        }
     }
 
     #[inline(always)]
     pub(super) fn target(self) -> Target {
         if self.is_inner() {
             Target::Inner(self.0)
-        } else if self.0 & Self::MIXED == 0 {
+        } else if self.0 & Self::OTHER == 0 {
             let code = self.0 & !Self::LEAF;
             Target::Packets { first: code >> Self::COUNT_BITS, count: code & ((1 << Self::COUNT_BITS) - 1) }
+        } else if self.0 & Self::BUNCH == 0 {
+            Target::Item(self.0 & (Self::BUNCH - 1))
         } else {
-            Target::Mixed(self.0 & !(Self::LEAF | Self::MIXED))
+            Target::Bunch(self.0 & (Self::BUNCH - 1))
         }
     }
 }
@@ -185,16 +213,14 @@ impl Packet {
     }
 }
 
-/// A leaf with something else than triangles.
+/// Consecutive entries of [`Tree::items`]: the parts of curves in a [`Bunch`].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MixedLeaf {
-    pub(super) first_packet: u32,
-    pub(super) packet_count: u32,
-    pub(super) first_item: u32,
-    pub(super) item_count: u32,
+pub(super) struct Members {
+    pub(super) first: u32,
+    pub(super) count: u32,
 }
 
-/// A leaf entry that is intersected on its own.
+/// Something that is intersected on its own.
 #[derive(Clone, Debug)]
 pub(super) enum Item {
     Prim { owner: Owner, prim: u32, primitive: Primitive },
@@ -206,8 +232,10 @@ pub(super) enum Item {
 pub(super) struct Tree {
     pub(super) nodes: Vec<Node>,
     pub(super) packets: Vec<Packet>,
-    pub(super) mixed: Vec<MixedLeaf>,
     pub(super) items: Vec<Item>,
+    pub(super) bunches: Vec<Bunch>,
+    /// What the bunches hold, in their order.
+    pub(super) members: Vec<Members>,
     pub(super) depth: u32,
     pub(super) bounds: Option<Bounds3>,
     /// Held at most while it was built, itself included.
@@ -218,7 +246,8 @@ impl Tree {
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.nodes[..])
             + size_of_val(&self.packets[..])
-            + size_of_val(&self.mixed[..])
             + size_of_val(&self.items[..])
+            + size_of_val(&self.bunches[..])
+            + size_of_val(&self.members[..])
     }
 }

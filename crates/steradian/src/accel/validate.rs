@@ -2,7 +2,7 @@
 
 use super::build;
 use super::structure::Accel;
-use super::tree::{Child, Item, LANES, Owner, Packet, Target, Tree};
+use super::tree::{Child, Item, LANES, Members, Owner, Packet, Target, Tree};
 use crate::math::Bounds3;
 
 /// What a structure consists of.
@@ -135,31 +135,31 @@ impl Accel {
         items: &mut [usize],
     ) -> Bounds3 {
         let mut b = Bounds3::EMPTY;
-        let (first, count) = match child.target() {
+        let held = match child.target() {
             Target::Inner(i) => {
                 nodes[i as usize] += 1;
                 let n = &tree.nodes[i as usize];
                 return (0..super::tree::WIDTH).filter_map(|s| n.child_bounds(s)).fold(b, Bounds3::union);
             }
-            Target::Packets { first, count } => (first, count),
-            Target::Mixed(i) => {
-                let leaf = &tree.mixed[i as usize];
-                for k in leaf.first_item..leaf.first_item + leaf.item_count {
-                    items[k as usize] += 1;
-                    b = b.union(match &tree.items[k as usize] {
-                        Item::Prim { primitive, .. } => primitive.bounds(),
-                        Item::Instance(id) => self.instance_bounds(*id).unwrap_or(Bounds3::EMPTY),
-                    });
+            Target::Packets { first, count } => {
+                for k in first..first + count {
+                    packets[k as usize] += 1;
+                    let p = &tree.packets[k as usize];
+                    for lane in (0..LANES).filter(|&l| p.owners[l] != Owner::NONE) {
+                        b = b.union(Bounds3::from_points(p.triangle(lane)));
+                    }
                 }
-                (leaf.first_packet, leaf.packet_count)
+                return b;
             }
+            Target::Item(first) => Members { first, count: 1 },
+            Target::Bunch(i) => tree.members[i as usize],
         };
-        for k in first..first + count {
-            packets[k as usize] += 1;
-            let p = &tree.packets[k as usize];
-            for lane in (0..LANES).filter(|&l| p.owners[l] != Owner::NONE) {
-                b = b.union(Bounds3::from_points(p.triangle(lane)));
-            }
+        for k in held.first..held.first + held.count {
+            items[k as usize] += 1;
+            b = b.union(match &tree.items[k as usize] {
+                Item::Prim { primitive, .. } => primitive.bounds(),
+                Item::Instance(id) => self.instance_bounds(*id).unwrap_or(Bounds3::EMPTY),
+            });
         }
         b
     }

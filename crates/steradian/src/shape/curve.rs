@@ -4,7 +4,7 @@ mod bezier;
 mod segment;
 
 pub use bezier::{Basis, Degree};
-pub use segment::{CurveSegment, Profile};
+pub use segment::{Capsule, CurveSegment, Profile};
 
 use super::contract::{Orientation, PrimHit, ShapeError};
 use super::validate;

@@ -4,7 +4,7 @@ use super::branch::Growth;
 use super::gathering::Binary;
 use super::reference::{Reference, Subject};
 use super::trunk::{Place, Trunk};
-use crate::accel::tree::{Child, MixedLeaf, Node};
+use crate::accel::tree::{Child, Members, Node};
 use rayon::prelude::*;
 
 /// Consecutive references that become one packet.
@@ -20,9 +20,10 @@ pub(super) struct Chunk {
     /// The first is the root.
     pub(super) nodes: Vec<Node>,
     pub(super) bundles: Vec<Bundle>,
-    pub(super) mixed: Vec<MixedLeaf>,
     /// References that become items.
     pub(super) items: Vec<u32>,
+    /// Items that become bunches.
+    pub(super) members: Vec<Members>,
     /// Levels of nodes.
     pub(super) depth: u32,
 }
@@ -31,8 +32,8 @@ impl Chunk {
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.nodes[..])
             + size_of_val(&self.bundles[..])
-            + size_of_val(&self.mixed[..])
             + size_of_val(&self.items[..])
+            + size_of_val(&self.members[..])
     }
 }
 
@@ -119,18 +120,22 @@ impl Maker<'_> {
         let Growth::Leaf { first, count } = self.trunk.branches[branch as usize].growth(node) else {
             return None;
         };
-        if let Subject::Triangle { .. } = self.references[first as usize].subject() {
-            chunk.bundles.push(Bundle { first, count });
-            return Some(Child::packets(chunk.bundles.len() as u32 - 1, 1));
-        }
-        let leaf = MixedLeaf {
-            first_packet: 0,
-            packet_count: 0,
-            first_item: chunk.items.len() as u32,
-            item_count: count,
-        };
-        chunk.items.extend(first..first + count);
-        chunk.mixed.push(leaf);
-        Some(Child::mixed(chunk.mixed.len() as u32 - 1))
+        let first_item = chunk.items.len() as u32;
+        Some(match self.references[first as usize].subject() {
+            Subject::Triangle { .. } => {
+                chunk.bundles.push(Bundle { first, count });
+                Child::packets(chunk.bundles.len() as u32 - 1, 1)
+            }
+            Subject::Strand { .. } => {
+                chunk.items.extend(first..first + count);
+                chunk.members.push(Members { first: first_item, count });
+                Child::bunch(chunk.members.len() as u32 - 1)
+            }
+            Subject::Other { .. } | Subject::Instance(_) => {
+                debug_assert!(count == 1, "other primitives lie alone");
+                chunk.items.push(first);
+                Child::item(first_item)
+            }
+        })
     }
 }

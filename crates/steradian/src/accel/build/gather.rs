@@ -41,6 +41,10 @@ pub(super) fn gather(
                             Shape::Mesh(s) => {
                                 (Box4::around(s.corners(prim)), Subject::Triangle { shape: id, prim })
                             }
+                            Shape::Curve(s) => {
+                                let b = s.segment(prim).bounds();
+                                (Box4::from_bounds(&b), Subject::Strand { shape: id, prim })
+                            }
                             s => {
                                 let b = s.primitive(prim).bounds();
                                 (Box4::from_bounds(&b), Subject::Other { shape: id, prim })
@@ -69,9 +73,11 @@ pub(super) fn gather(
 fn first_unbounded(references: &[Reference]) -> AccelError {
     let finite = |r: &&Reference| r.lo.truncate().is_finite() && r.hi.truncate().is_finite();
     match references.iter().find(|r| !finite(r)).map(Reference::subject) {
-        Some(Subject::Triangle { shape, prim } | Subject::Other { shape, prim }) => {
-            AccelError::UnboundedShape { shape: shape.0, prim }
-        }
+        Some(
+            Subject::Triangle { shape, prim }
+            | Subject::Strand { shape, prim }
+            | Subject::Other { shape, prim },
+        ) => AccelError::UnboundedShape { shape: shape.0, prim },
         Some(Subject::Instance(id)) => AccelError::UnboundedInstance { instance: id.0 as usize },
         None => AccelError::TooLarge { count: references.len() },
     }

@@ -3,9 +3,10 @@
 use super::collapse::{Bundle, Chunk, Collapsed};
 use super::reference::{Reference, Subject};
 use super::segments::Segments;
+use crate::accel::bunch::Bunch;
 use crate::accel::contract::{AccelError, Coverage, Layout};
 use crate::accel::pages;
-use crate::accel::tree::{Child, Item, LANES, MixedLeaf, Owner, Packet, Target, Tree};
+use crate::accel::tree::{Child, Item, LANES, Members, Owner, Packet, Target, Tree};
 use crate::math::Point;
 use crate::shape::{Shape, ShapeId};
 use rayon::prelude::*;
@@ -14,8 +15,8 @@ use rayon::prelude::*;
 struct Offsets {
     nodes: Segments,
     packets: Segments,
-    mixed: Segments,
     items: Segments,
+    members: Segments,
 }
 
 impl Offsets {
@@ -23,8 +24,8 @@ impl Offsets {
         Self {
             nodes: Segments::new(chunks.iter().map(|c| c.nodes.len())),
             packets: Segments::new(chunks.iter().map(|c| c.bundles.len())),
-            mixed: Segments::new(chunks.iter().map(|c| c.mixed.len())),
             items: Segments::new(chunks.iter().map(|c| c.items.len())),
+            members: Segments::new(chunks.iter().map(|c| c.members.len())),
         }
     }
 
@@ -34,7 +35,8 @@ impl Offsets {
             Target::Packets { first, count } => {
                 Child::packets(first + self.packets.start(chunk) as u32, count)
             }
-            Target::Mixed(i) => Child::mixed(i + self.mixed.start(chunk) as u32),
+            Target::Item(i) => Child::item(i + self.items.start(chunk) as u32),
+            Target::Bunch(i) => Child::bunch(i + self.members.start(chunk) as u32),
         }
     }
 }
@@ -91,13 +93,14 @@ pub(super) fn pack(
         )
         .collect_into_vec(&mut tree.packets);
     tree.items.reserve_exact(offsets.items.total());
-    tree.mixed.reserve_exact(offsets.mixed.total());
+    tree.members.reserve_exact(offsets.members.total());
     for (i, chunk) in chunks.iter().enumerate() {
         let base = offsets.items.start(i) as u32;
         tree.items.extend(chunk.items.iter().map(|&r| packer.item(&references[r as usize])));
-        let rebased = |m: &MixedLeaf| MixedLeaf { first_item: m.first_item + base, ..*m };
-        tree.mixed.extend(chunk.mixed.iter().map(rebased));
+        tree.members.extend(chunk.members.iter().map(|m| Members { first: m.first + base, ..*m }));
     }
+    let bunch = |m: &Members| Bunch::new(&tree.items[m.first as usize..][..m.count as usize]);
+    tree.bunches = tree.members.iter().map(bunch).collect();
     Ok(tree)
 }
 
@@ -137,7 +140,9 @@ impl Packer<'_> {
 
     fn item(&self, reference: &Reference) -> Item {
         match reference.subject() {
-            Subject::Triangle { shape, prim } | Subject::Other { shape, prim } => {
+            Subject::Triangle { shape, prim }
+            | Subject::Strand { shape, prim }
+            | Subject::Other { shape, prim } => {
                 let primitive = self.shapes[shape.0 as usize].primitive(prim);
                 Item::Prim { owner: self.owner(shape), prim, primitive }
             }

@@ -5,6 +5,7 @@
 
 use super::binning::{Bins, Division, Mapping};
 use super::reference::{Box4, Extent, Reference};
+use crate::accel::bunch::STRANDS;
 use crate::accel::tree::{LANES, MAX_DEPTH};
 use rayon::prelude::*;
 
@@ -40,10 +41,11 @@ impl<'a> Part<'a> {
         Self { references, spare, displaced: false, first: 0, extent, depth: 0 }
     }
 
-    /// Whether one packet, or the only item of a leaf, holds all.
+    /// Whether one packet, one bunch of curves, or the only item of a leaf holds all.
     #[inline(always)]
     pub(super) fn is_leaf(&self) -> bool {
         self.extent.tally.weight() <= LANES as u32
+            || (self.references.len() <= STRANDS && self.references.iter().all(Reference::is_strand))
     }
 
     /// Whether rays would meet clearly less of its halves than of a leaf that holds all: packets are tested as a whole,

@@ -46,8 +46,19 @@ impl Box4 {
 /// One thing that a tree is built over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
-    Triangle { shape: ShapeId, prim: u32 },
-    Other { shape: ShapeId, prim: u32 },
+    Triangle {
+        shape: ShapeId,
+        prim: u32,
+    },
+    /// A part of a curve.
+    Strand {
+        shape: ShapeId,
+        prim: u32,
+    },
+    Other {
+        shape: ShapeId,
+        prim: u32,
+    },
     Instance(InstanceId),
 }
 
@@ -64,7 +75,8 @@ impl Reference {
     pub(super) const ZERO: Self = Self { lo: Vec4::ZERO, hi: Vec4::ZERO };
     const NORMAL: u32 = 1 << 30;
     const OTHER: u32 = 1 << 29;
-    const INSTANCE: u32 = Self::OTHER - 1;
+    const STRAND: u32 = 1 << 28;
+    const INSTANCE: u32 = Self::STRAND - 1;
     /// Shapes that can be told apart.
     pub(super) const MAX_SHAPES: usize = Self::INSTANCE as usize;
 
@@ -72,6 +84,7 @@ impl Reference {
     pub(super) fn new(b: Box4, subject: Subject) -> Self {
         let (first, second) = match subject {
             Subject::Triangle { shape, prim } => (shape.0, prim),
+            Subject::Strand { shape, prim } => (Self::OTHER | Self::STRAND | shape.0, prim),
             Subject::Other { shape, prim } => (Self::OTHER | shape.0, prim),
             Subject::Instance(id) => (Self::OTHER | Self::INSTANCE, id.0),
         };
@@ -84,12 +97,19 @@ impl Reference {
     pub(super) fn subject(&self) -> Subject {
         let word = |x: f32| x.to_bits() & !Self::NORMAL;
         let (first, second) = (word(self.lo.w), word(self.hi.w));
-        let shape = ShapeId(first & !Self::OTHER);
+        let shape = ShapeId(first & !(Self::OTHER | Self::STRAND));
         match first & Self::OTHER != 0 {
             false => Subject::Triangle { shape, prim: second },
+            true if self.is_strand() => Subject::Strand { shape, prim: second },
             true if shape.0 == Self::INSTANCE => Subject::Instance(InstanceId(second)),
             true => Subject::Other { shape, prim: second },
         }
+    }
+
+    /// Whether it is a part of a curve.
+    #[inline(always)]
+    pub(super) fn is_strand(&self) -> bool {
+        self.lo.w.to_bits() & Self::STRAND != 0
     }
 
     #[inline(always)]

@@ -1,5 +1,5 @@
 use super::*;
-use crate::accel::tree::{Item, LANES, MAX_DEPTH, Owner, Target, WIDTH};
+use crate::accel::tree::{Item, LANES, MAX_DEPTH, Members, Owner, Target, WIDTH};
 use crate::math::{Point, Transform, Vec3};
 use crate::shape::{MeshData, Orientation, TriangleMesh};
 
@@ -50,6 +50,7 @@ fn tree_of(shapes: &[Shape]) -> Tree {
 fn walked(tree: &Tree) -> Vec<(ShapeId, u32)> {
     let mut found = Vec::new();
     let mut reached = (0, 0);
+    let mut reached_items = vec![0; tree.items.len()];
     let mut work = vec![(0_u32, tree.bounds.unwrap_or(Bounds3::EMPTY), 1)];
     let inside = |inner: &Bounds3, outer: &Bounds3| {
         inner.min.cmpge(*outer.min).all() && inner.max.cmple(*outer.max).all()
@@ -72,14 +73,16 @@ fn walked(tree: &Tree) -> Vec<(ShapeId, u32)> {
                         }
                     }
                 }
-                Target::Mixed(i) => {
-                    let leaf = &tree.mixed[i as usize];
-                    assert_eq!((leaf.packet_count, leaf.item_count), (0, 1), "other primitives lie alone");
+                Target::Item(i) => reached_items[i as usize] += 1,
+                Target::Bunch(i) => {
+                    let Members { first, count } = tree.members[i as usize];
+                    (first..first + count).for_each(|k| reached_items[k as usize] += 1);
                 }
             }
         }
     }
     assert_eq!(reached, (tree.nodes.len(), tree.packets.len()));
+    assert!(reached_items.iter().all(|n| *n == 1), "every item lies in one leaf");
     found.sort_unstable();
     found
 }

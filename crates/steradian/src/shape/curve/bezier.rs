@@ -50,10 +50,12 @@ impl Bezier {
         Self([p, (p + q * 2.0) / 3.0, (q * 2.0 + r) / 3.0, r])
     }
 
+    #[inline]
     pub(super) fn point(&self, u: f32) -> Vec3 {
         self.blossom(u, u, u)
     }
 
+    #[inline]
     pub(super) fn derivative(&self, u: f32) -> Vec3 {
         let [a, b, c, d] = self.0;
         let (x, y) = ((b - a).lerp(c - b, u), (c - b).lerp(d - c, u));
@@ -63,6 +65,7 @@ impl Bezier {
     }
 
     /// The polar form: affine in each argument, the curve where they are equal.
+    #[inline]
     fn blossom(&self, u: f32, v: f32, w: f32) -> Vec3 {
         let [a, b, c, d] = self.0;
         let (p, q, r) = (a.lerp(b, u), b.lerp(c, u), c.lerp(d, u));
@@ -81,6 +84,7 @@ impl Bezier {
     }
 
     /// The two halves.
+    #[inline]
     pub(super) fn halves(&self) -> [Self; 2] {
         let [a, b, c, d] = self.0;
         let (ab, bc, cd) = ((a + b) * 0.5, (b + c) * 0.5, (c + d) * 0.5);
