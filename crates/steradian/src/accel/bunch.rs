@@ -89,7 +89,7 @@ impl Bunch {
         let (ball, before) = (length_squared * SLACK, length_squared.sqrt() * SLACK);
         let farthest = t_max * length_squared * (1.0 + 16.0 * ROUNDING);
         let mut near = [0_u8; STRANDS];
-        for i in 0..STRANDS {
+        for (i, near) in near.iter_mut().enumerate() {
             let [wx, wy, wz] = [self.middle[0][i] - ox, self.middle[1][i] - oy, self.middle[2][i] - oz];
             let [cx, cy, cz] = [self.chord[0][i], self.chord[1][i], self.chord[2][i]];
             let (reach, radius) = (self.reach[i], self.radius[i]);
@@ -111,7 +111,7 @@ impl Bunch {
             let beyond = along - margin > farthest;
             // False where lengths are beyond the range of floats.
             let certain = error < f32::INFINITY;
-            near[i] = u8::from(!(certain & (beside | passing | behind | beyond)));
+            *near = u8::from(!(certain & (beside | passing | behind | beyond)));
         }
         LaneSet(u64::from_le_bytes(near))
     }

@@ -51,21 +51,17 @@ fn all_finite(values: &[f32]) -> bool {
     values.iter().fold(0, |signs, v| signs | (v.abs().to_bits() + ONE_MORE)) & SIGN == 0
 }
 
-/// Whether every index is below `n`: the difference shows in the sign. Read as unsigned, a negative index has a sign itself.
+/// Whether every index is below `n`: the difference to the last shows in the sign, and so does an index itself that is
+/// beyond the range of `i32`.
 fn all_below(n: usize, indices: &[u32]) -> bool {
-    const TOGETHER: usize = 16;
-    let Ok(n) = i32::try_from(n) else { return false };
-    let n = n.cast_unsigned();
-    let (groups, others) = indices.as_chunks::<TOGETHER>();
-    let (mut below, mut signs) = ([u32::MAX; TOGETHER], [0; TOGETHER]);
-    for group in groups {
-        for ((below, signs), i) in below.iter_mut().zip(&mut signs).zip(group) {
-            *below &= i.wrapping_sub(n);
-            *signs |= i;
+    match i32::try_from(n) {
+        Ok(0) => indices.is_empty(),
+        Ok(n) => {
+            let last = n.cast_unsigned() - 1;
+            indices.iter().fold(0, |signs, i| signs | i | last.wrapping_sub(*i)) & SIGN == 0
         }
+        Err(_) => false,
     }
-    let in_groups = below.iter().all(|b| b & SIGN != 0) && signs.iter().all(|s| s & SIGN == 0);
-    in_groups && others.iter().all(|i| *i < n)
 }
 
 impl PlyMesh {
@@ -216,11 +212,32 @@ fn columns<const N: usize, T>(
     if stride < start || stride - start < 4 * N {
         return None;
     }
-    let floats = move |row: &[u8]| {
-        let words = row[start..][..4 * N].as_chunks::<4>().0;
+    let floats = |bytes: &[u8]| {
+        let words = bytes[..4 * N].as_chunks::<4>().0;
         make(std::array::from_fn(|i| f32::from_le_bytes(words[i])))
     };
-    Some(rows.chunks_exact(stride).map(floats).collect())
+    let from_start = rows.get(start..)?;
+    // Rows of a length that is known beforehand, such as positions have alone, with uv, with normals and with both, take
+    // half the instructions.
+    Some(match stride {
+        12 => fixed_rows::<12, T>(from_start, start, floats),
+        20 => fixed_rows::<20, T>(from_start, start, floats),
+        24 => fixed_rows::<24, T>(from_start, start, floats),
+        32 => fixed_rows::<32, T>(from_start, start, floats),
+        _ => from_start.chunks(stride).map(floats).collect(),
+    })
+}
+
+/// The same for rows of `STRIDE` bytes, the last of which lacks its first `start`.
+#[inline(always)]
+fn fixed_rows<const STRIDE: usize, T>(rows: &[u8], start: usize, read: impl Fn(&[u8]) -> T) -> Vec<T> {
+    let (whole, last) = rows.as_chunks::<STRIDE>();
+    let mut values = Vec::with_capacity(whole.len() + 1);
+    values.extend(whole.iter().map(|row| read(row)));
+    if start > 0 && !last.is_empty() {
+        values.push(read(last));
+    }
+    values
 }
 
 /// Reads the faces and returns what follows.
@@ -247,35 +264,28 @@ fn face_rows<'a>(
         },
     };
     let extra = *offsets.last()?;
+    let (mut triangles, mut quads) = (Table::default(), Table::default());
     let mut left = element.count;
     // How many faces of the same kind are looked for at once: more while they are found.
     let mut run = 1;
     while left > 0 {
         let corners = usize::from(*body.first()?);
-        let at_once = if extra == 0 && run > 1 { run.min(left) } else { 1 };
-        let taken = match (corners, at_once) {
-            (3 | 4, 1) => {
-                let size = 1 + 4 * corners;
-                let row = body.get(..size + extra)?;
-                let (words, tail) = row.split_at(size);
-                let words = words[1..].as_chunks::<4>().0;
-                let mut face = [0; 4];
-                for (corner, word) in face.iter_mut().zip(words) {
-                    *corner = u32::from_le_bytes(*word);
-                }
-                let numbers = if corners == 4 { &mut mesh.quad_numbers } else { &mut mesh.triangle_numbers };
-                numbers.extend(number.and_then(|at| Some(u32::from_le_bytes(*tail[at..].first_chunk()?))));
-                mesh.push(&face[..corners], left);
-                1
-            }
-            (3, n) => run_of::<3, 13>(body, n, &mut mesh.triangles, |face| face),
-            (4, n) => run_of::<4, 17>(body, n, &mut mesh.quads, |[a, b, c, d]| [a, b, d, c]),
+        let at_once = if extra == 0 { run.min(left) } else { 1 };
+        let taken = match corners {
+            3 => triangles.read::<13>(body, at_once, left, |face| face),
+            4 => quads.read::<17>(body, at_once, left, |[a, b, c, d]| [a, b, d, c]),
             _ => return None,
         };
+        let size = 1 + 4 * corners;
+        // Fewer than were looked for, of which there is one at least, where the file ends within one.
+        let others = body.get(taken * size..taken * size + extra).filter(|_| taken > 0)?;
+        let numbers = if corners == 4 { &mut mesh.quad_numbers } else { &mut mesh.triangle_numbers };
+        numbers.extend(number.and_then(|at| Some(u32::from_le_bytes(*others[at..].first_chunk()?))));
         run = if taken == at_once { (2 * run).min(LONGEST_RUN) } else { 1 };
-        body = &body[taken * (1 + 4 * corners) + taken * extra..];
+        body = &body[taken * size + extra..];
         left -= taken;
     }
+    (mesh.triangles, mesh.quads) = (triangles.0, quads.0);
     Some(body)
 }
 
@@ -285,42 +295,40 @@ const SIGN: u32 = 1 << 31;
 /// Faces that are read between two looks at whether they were of the expected kind.
 const LONGEST_RUN: usize = 256;
 
-/// Appends up to `n` faces of `N` corners, as many as there are before the first of another kind, and returns their number.
-#[inline]
-fn run_of<const N: usize, const ROW: usize>(
-    body: &[u8],
-    n: usize,
-    faces: &mut Vec<[u32; N]>,
-    order: impl Fn([u32; N]) -> [u32; N],
-) -> usize {
-    const AT_ONCE: usize = 4;
-    let rows = body.as_chunks::<ROW>().0;
-    let rows = &rows[..n.min(rows.len()).min(LONGEST_RUN)];
-    let before = faces.len();
-    // Room as a copy of zeros, which is cheaper than a value at a time.
-    faces.extend_from_slice(&[[0; N]; LONGEST_RUN][..rows.len()]);
-    // The lengths of all lists, joined by `or` and by `and`: both are N when all are.
-    let (mut some, mut every) = (0, u8::MAX);
-    let mut read = |row: &[u8; ROW], face: &mut [u32; N]| {
-        some |= row[0];
-        every &= row[0];
-        let words = row[1..].as_chunks::<4>().0;
-        *face = order(std::array::from_fn(|i| u32::from_le_bytes(words[i])));
-    };
-    let (fours, others) = rows.as_chunks::<AT_ONCE>();
-    let (four_faces, other_faces) = faces[before..].as_chunks_mut::<AT_ONCE>();
-    for (rows, faces) in fours.iter().zip(four_faces) {
-        for i in 0..AT_ONCE {
-            read(&rows[i], &mut faces[i]);
+/// Faces of `N` corners.
+#[derive(Default)]
+struct Table<const N: usize>(Vec<[u32; N]>);
+
+impl<const N: usize> Table<N> {
+    /// Reads up to `n` faces, as many as there are before the first of another kind, and returns their number. At most
+    /// `left` are still to come, `n` included.
+    #[inline]
+    fn read<const ROW: usize>(
+        &mut self,
+        body: &[u8],
+        n: usize,
+        left: usize,
+        order: impl Fn([u32; N]) -> [u32; N],
+    ) -> usize {
+        if self.0.is_empty() {
+            self.0.reserve_exact(left);
         }
+        let rows = body.as_chunks::<ROW>().0;
+        let rows = &rows[..n.min(rows.len())];
+        let before = self.0.len();
+        // The lengths of all lists, joined by `or` and by `and`: both are N when all are.
+        let (mut some, mut every) = (0, u8::MAX);
+        self.0.extend(rows.iter().map(|row| {
+            some |= row[0];
+            every &= row[0];
+            let words = row[1..].as_chunks::<4>().0;
+            order(std::array::from_fn(|i| u32::from_le_bytes(words[i])))
+        }));
+        if usize::from(some) == N && usize::from(every) == N {
+            return rows.len();
+        }
+        let taken = rows.iter().take_while(|row| usize::from(row[0]) == N).count();
+        self.0.truncate(before + taken);
+        taken
     }
-    for (row, face) in others.iter().zip(other_faces) {
-        read(row, face);
-    }
-    if usize::from(some) == N && usize::from(every) == N {
-        return rows.len();
-    }
-    let taken = rows.iter().take_while(|row| usize::from(row[0]) == N).count();
-    faces.truncate(before + taken);
-    taken
 }
