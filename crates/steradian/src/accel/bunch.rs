@@ -4,9 +4,7 @@
 //! takes little more than to pass by a box. The code has no branches, so that the compiler works on all lanes at once, and
 //! no fused operation, so that the answer is the same with any instructions.
 
-use super::tree::Item;
 use crate::math::{Ray, float};
-use crate::shape::Primitive;
 use crate::shape::curve::Capsule;
 
 /// Parts of a bunch.
@@ -55,17 +53,13 @@ const SLACK: f32 = 1.0 + 1.0 / 16.0;
 const ERRORS: f32 = 17.0 * ROUNDING * ROUNDING;
 
 impl Bunch {
-    /// The bunch of those parts of curves, of which there is one at least.
-    pub(super) fn new(items: &[Item]) -> Self {
+    /// The bunch of the first of those capsules, one at least.
+    pub(super) fn new(mut capsules: impl Iterator<Item = Capsule>) -> Self {
         let row = [0.0; STRANDS];
         let mut bunch = Self { middle: [row; 3], chord: [row; 3], reach: row, radius: row };
-        let capsule = |item: &Item| match item {
-            Item::Prim { primitive: Primitive::Segment(s), .. } => Some(s.capsule()),
-            _ => None,
-        };
         let mut last = None;
         for lane in 0..STRANDS {
-            last = items.get(lane).and_then(capsule).or(last);
+            last = capsules.next().or(last);
             if let Some(Capsule { middle, chord, reach, radius }) = last {
                 for axis in 0..3 {
                     bunch.middle[axis][lane] = middle[axis];
@@ -120,14 +114,13 @@ impl Bunch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accel::tree::Owner;
     use crate::math::hash::Pcg32;
     use crate::math::{Point, Transform, Vec2, Vec3, warp};
     use crate::shape::curve::{Basis, Degree, Profile};
-    use crate::shape::{Curve, CurveData, Orientation, Shape, ShapeId};
+    use crate::shape::{Curve, CurveData, CurveSegment, Orientation};
 
     /// One piece in four parts.
-    fn bunch(points: [Vec3; 4], widths: [f32; 2]) -> (Bunch, Vec<Item>) {
+    fn bunch(points: [Vec3; 4], widths: [f32; 2]) -> (Bunch, Vec<CurveSegment>) {
         let data = CurveData {
             points: points.map(Point).to_vec(),
             basis: Basis::Bezier,
@@ -137,22 +130,14 @@ mod tests {
             widths,
             split_depth: 2,
         };
-        let shape = Shape::Curve(Curve::new(data, &Transform::IDENTITY, Orientation::AsDefined).unwrap());
-        let item = |prim| Item::Prim {
-            owner: Owner::new(ShapeId(0), false),
-            prim,
-            primitive: shape.primitive(prim),
-        };
-        let items: Vec<Item> = (0..shape.prim_count()).map(item).collect();
-        (Bunch::new(&items), items)
+        let curve = Curve::new(data, &Transform::IDENTITY, Orientation::AsDefined).unwrap();
+        let parts: Vec<_> = (0..curve.segment_count()).map(|k| curve.segment(k)).collect();
+        (Bunch::new(parts.iter().map(CurveSegment::capsule)), parts)
     }
 
-    fn met(items: &[Item], ray: &Ray, t_max: f32) -> Vec<u32> {
-        let meets = |item: &Item| match item {
-            Item::Prim { primitive, .. } => primitive.intersect(ray, t_max).is_some(),
-            Item::Instance(_) => false,
-        };
-        (0..).zip(items).filter(|(_, item)| meets(item)).map(|(lane, _)| lane).collect()
+    fn met(parts: &[CurveSegment], ray: &Ray, t_max: f32) -> Vec<u32> {
+        let meets = |part: &CurveSegment| part.intersect(ray, t_max).is_some();
+        (0..).zip(parts).filter(|(_, part)| meets(part)).map(|(lane, _)| lane).collect()
     }
 
     #[test]
@@ -178,7 +163,7 @@ mod tests {
             let width = [0.3, 0.02, 0.001][case % 3];
             let (target, mut d) = (points[case % 4].lerp(points[1], rng.next_f32()), Vec3::ZERO);
             let around = warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
-            let (bunch, items) = bunch(points.map(|p| p * scale), [width * scale, 0.5 * width * scale]);
+            let (bunch, parts) = bunch(points.map(|p| p * scale), [width * scale, 0.5 * width * scale]);
             // From far and near, along the curve, and just past its edge.
             let far = [0.1, 2.0, 100.0][case / 60 % 3];
             let target = target + around * (0.5 * width * rng.next_f32());
@@ -195,7 +180,7 @@ mod tests {
             for part in [0.999, 1.0, 1.001, f32::INFINITY] {
                 let t_max = far * scale / length * part;
                 let near: Vec<u32> = bunch.near(&ray, t_max).collect();
-                for lane in met(&items, &ray, t_max) {
+                for lane in met(&parts, &ray, t_max) {
                     count += 1;
                     assert!(near.contains(&lane), "case {case}: {ray:?} {t_max} {points:?}");
                 }

@@ -8,7 +8,7 @@ use crate::accel::contract::{AccelError, Coverage, Layout};
 use crate::accel::pages;
 use crate::accel::tree::{Child, Item, LANES, Members, Owner, Packet, Target, Tree};
 use crate::math::Point;
-use crate::shape::{Shape, ShapeId};
+use crate::shape::{Primitive, Shape, ShapeId};
 use rayon::prelude::*;
 
 /// Where the elements of each chunk begin.
@@ -99,7 +99,13 @@ pub(super) fn pack(
         tree.items.extend(chunk.items.iter().map(|&r| packer.item(&references[r as usize])));
         tree.members.extend(chunk.members.iter().map(|m| Members { first: m.first + base, ..*m }));
     }
-    let bunch = |m: &Members| Bunch::new(&tree.items[m.first as usize..][..m.count as usize]);
+    let capsule = |item: &Item| match item {
+        Item::Prim { primitive: Primitive::Segment(part), .. } => Some(part.capsule()),
+        Item::Prim { .. } | Item::Instance(_) => None,
+    };
+    let bunch = |m: &Members| {
+        Bunch::new(tree.items[m.first as usize..][..m.count as usize].iter().filter_map(capsule))
+    };
     tree.bunches = tree.members.iter().map(bunch).collect();
     Ok(tree)
 }
