@@ -1,5 +1,6 @@
 //! Functions of wavelength.
 
+mod visible;
 pub mod sampled;
 pub mod cie;
 pub mod tabulated;

@@ -1,5 +1,6 @@
 //! The wavelengths that one path carries, and the spectral values at them.
 
+use super::visible;
 use crate::units::{PdfSolidAngle, PerSteradian, Quantity, Radiance, Unitless};
 use std::marker::PhantomData;
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Sub};
@@ -28,19 +29,15 @@ pub struct Wavelengths {
 const OUTSIDE: u32 = 1 << 30;
 
 impl Wavelengths {
-    /// Wavelengths distributed like the eye's sensitivity over 360–830 nm, stratified by one u in [0, 1).
-    ///
-    /// Density 0.0039398042 / cosh²(0.0072 (λ − 538)) (Radziszewski et al. 2009; constants as in pbrt-v4 book, 4.5.4).
+    /// Wavelengths for a picture in colour, distributed over 360–830 nm as [`Wavelengths::visible_pdf`] says; stratified by
+    /// one u in [0, 1). Our deviation from pbrt-v4, whose density resembles the eye's sensitivity.
     #[inline]
     pub fn sample_visible(u: f32) -> Self {
         let (mut lambda, mut pdf) = ([0.0; LANES], [0.0; LANES]);
         for i in 0..LANES {
             let up = u + i as f32 / LANES as f32;
-            let up = if up >= 1.0 { up - 1.0 } else { up };
-            let x = 0.856_910_62 - 1.827_502_0 * up;
-            lambda[i] = (538.0 - 138.888_889 * atanh(x)).clamp(LAMBDA_MIN, LAMBDA_MAX);
-            // [`Wavelengths::visible_pdf`], by 1/cosh² = 1 − tanh².
-            pdf[i] = 0.003_939_804_2 * (1.0 - x * x);
+            let drawn = visible::draw(if up >= 1.0 { up - 1.0 } else { up });
+            (lambda[i], pdf[i]) = (drawn.lambda, drawn.pdf);
         }
         Self::new(lambda, pdf)
     }
@@ -88,8 +85,7 @@ impl Wavelengths {
         if !(LAMBDA_MIN..=LAMBDA_MAX).contains(&lambda) {
             return 0.0;
         }
-        let c = (0.0072 * (lambda - 538.0)).cosh();
-        0.003_939_804_2 / (c * c)
+        visible::density(lambda)
     }
 
     /// Wavelengths uniform over [`min`, `max`] nm, stratified by one u in [0, 1).
@@ -133,20 +129,6 @@ impl Wavelengths {
     pub fn companions_terminated(&self) -> bool {
         self.terminated
     }
-}
-
-/// atanh x = ½ ln((1 + x)/(1 − x)) for |x| < 0.99, to 10⁻⁶, without a call, so that all lanes are computed at once.
-#[inline]
-fn atanh(x: f32) -> f32 {
-    const HALF_LN_2: f32 = 0.346_573_6;
-    let ratio = (1.0 + x) / (1.0 - x);
-    // ratio = 2^e m with m in [√½, √2): what is left for the series is small.
-    let e = (ratio.to_bits().wrapping_sub(0x3f35_04f3) as i32) >> 23;
-    let m = f32::from_bits(ratio.to_bits().wrapping_sub((e << 23) as u32));
-    // ½ ln m = atanh t = t + t³/3 + t⁵/5 + …, |t| < 0.172.
-    let t = (m - 1.0) / (m + 1.0);
-    let t2 = t * t;
-    e as f32 * HALF_LN_2 + t * (1.0 + t2 * (1.0 / 3.0 + t2 * (1.0 / 5.0 + t2 * (1.0 / 7.0))))
 }
 
 /// Values of the quantity `Q` at the wavelengths of one path.
