@@ -2,7 +2,7 @@
 
 use super::bounds::EmitterBounds;
 use super::contract::{Emitter, LightId};
-use super::tree::LightTree;
+use super::tree::{Leaf, LightTree};
 use crate::math::distribution::AliasTable;
 use crate::math::float::ONE_MINUS_EPSILON;
 use crate::shape::ReferencePoint;
@@ -45,6 +45,14 @@ pub struct LightSampler {
     tree: Option<LightTree>,
     /// Where each light's entries begin.
     places: Vec<Place>,
+}
+
+/// What a number has chosen.
+enum Group<'a> {
+    /// A light at infinity.
+    Infinite(Chosen),
+    /// Some other emitter, of this distribution of powers, with the stretched rest of the number.
+    Local { table: &'a AliasTable, u: f32 },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,15 +105,24 @@ impl LightSampler {
     /// Chooses an emitter with `u` in [0, 1), for no place in particular; `None` when nothing emits.
     #[inline(always)]
     pub fn sample(&self, u: f32) -> Option<Chosen> {
-        self.sample_group(u, |table, u| {
-            let d = table.sample(u);
-            Some(Chosen { emitter: self.emitters[d.index], probability: d.p })
-        })
+        match self.group(u)? {
+            Group::Infinite(chosen) => Some(chosen),
+            Group::Local { table, u } => {
+                let d = table.sample(u);
+                Some(Chosen { emitter: self.emitters[d.index], probability: d.p * self.local_share })
+            }
+        }
     }
 
     /// Probability with which [`LightSampler::sample`] chooses `emitter`; zero for one that is never.
     pub fn probability(&self, emitter: Emitter) -> f32 {
-        self.group_probability(emitter, |table, index| table.probability(index))
+        match self.place(emitter) {
+            Place::Infinite => (1.0 - self.local_share) / self.infinite.len() as f32,
+            Place::Local(index) => {
+                self.local.as_ref().map_or(0.0, |table| table.probability(index as usize) * self.local_share)
+            }
+            Place::Nowhere => 0.0,
+        }
     }
 
     /// Chooses an emitter for the light that arrives at `from`; `None` when nothing reaches it. By power if the
@@ -113,46 +130,51 @@ impl LightSampler {
     #[inline(always)]
     pub fn sample_at(&self, from: &ReferencePoint, u: f32) -> Option<Chosen> {
         let Some(tree) = &self.tree else { return self.sample(u) };
-        self.sample_group(u, |_, u| {
-            let leaf = tree.sample(from, u)?;
-            let emitter = self.emitters[leaf.index as usize];
-            (leaf.probability > 0.0).then_some(Chosen { emitter, probability: leaf.probability })
-        })
+        match self.group(u)? {
+            Group::Infinite(chosen) => Some(chosen),
+            Group::Local { u, .. } => {
+                let Leaf { index, probability } = tree.sample(from, u)?;
+                let probability = probability * self.local_share;
+                let emitter = self.emitters[index as usize];
+                (probability > 0.0).then_some(Chosen { emitter, probability })
+            }
+        }
     }
 
     /// Probability with which [`LightSampler::sample_at`] chooses `emitter`; zero for one that is never.
+    #[inline(always)]
     pub fn probability_at(&self, from: &ReferencePoint, emitter: Emitter) -> f32 {
-        let Some(tree) = &self.tree else { return self.probability(emitter) };
-        self.group_probability(emitter, |_, index| tree.probability(from, index))
+        match (&self.tree, self.place(emitter)) {
+            (Some(tree), Place::Local(index)) => tree.probability(from, index as usize) * self.local_share,
+            _ => self.probability(emitter),
+        }
     }
 
-    /// Chooses the group, then an emitter of it; `local` gets the stretched rest of `u`.
+    /// Chooses between the lights at infinity, one by one, and all others.
     #[inline(always)]
-    fn sample_group(&self, u: f32, local: impl FnOnce(&AliasTable, f32) -> Option<Chosen>) -> Option<Chosen> {
+    fn group(&self, u: f32) -> Option<Group<'_>> {
         let share = self.local_share;
         match &self.local {
             Some(table) if u < share || self.infinite.is_empty() => {
-                let chosen = local(table, (u / share).min(ONE_MINUS_EPSILON))?;
-                Some(Chosen { probability: chosen.probability * share, ..chosen })
+                Some(Group::Local { table, u: (u / share).min(ONE_MINUS_EPSILON) })
             }
             _ => {
                 let n = self.infinite.len();
                 let index =
                     (((u - share) / (1.0 - share) * n as f32).max(0.0) as usize).min(n.checked_sub(1)?);
                 let emitter = Emitter { light: self.infinite[index], prim: 0 };
-                Some(Chosen { emitter, probability: (1.0 - share) / n as f32 })
+                Some(Group::Infinite(Chosen { emitter, probability: (1.0 - share) / n as f32 }))
             }
         }
     }
 
-    fn group_probability(&self, emitter: Emitter, local: impl FnOnce(&AliasTable, usize) -> f32) -> f32 {
+    /// Where an emitter is listed; of a local one, its own index.
+    #[inline(always)]
+    fn place(&self, emitter: Emitter) -> Place {
         match self.places.get(emitter.light.0 as usize) {
-            Some(Place::Infinite) => (1.0 - self.local_share) / self.infinite.len() as f32,
-            Some(&Place::Local(first)) => {
-                let index = first as usize + emitter.prim as usize;
-                self.local.as_ref().map_or(0.0, |table| local(table, index) * self.local_share)
-            }
-            Some(Place::Nowhere) | None => 0.0,
+            Some(&Place::Local(first)) => Place::Local(first + emitter.prim),
+            Some(&place) => place,
+            None => Place::Nowhere,
         }
     }
 

@@ -1,7 +1,7 @@
 //! A tree over emitters: chooses among many lights by what they may contribute at a point, in logarithmic time.
 //!
-//! Conty Estévez & Kulla 2018 with four children a node (one instruction estimates all of them) and estimates of the mean
-//! rather than of the most that a group may contribute; see [`Quad::estimates`].
+//! Conty Estévez & Kulla 2018 with eight children a node (one instruction estimates all of them) and estimates of the mean
+//! rather than of the most that a group may contribute; see [`Node::estimates`].
 
 use super::bounds::{EmitterBounds, cost};
 use crate::math::float::ONE_MINUS_EPSILON;
@@ -9,14 +9,14 @@ use crate::math::{Bounds3, Vec3};
 use crate::shape::ReferencePoint;
 
 /// Children of a node.
-const WIDTH: usize = 4;
+const WIDTH: usize = 8;
 /// One number for each child.
 type Lanes = [f32; WIDTH];
 
-/// A tree with up to four children a node; the root is the first.
+/// A tree with up to eight children a node; the root is the first.
 #[derive(Clone, Debug)]
 pub(super) struct LightTree {
-    nodes: Vec<Quad>,
+    nodes: Vec<Node>,
     /// For each node its place in its parent; unused for the root.
     parents: Vec<Slot>,
     /// Per emitter its place; `None` if it is not in the tree.
@@ -32,10 +32,12 @@ struct Slot {
 
 /// Bounds of the children of a node, one lane each; lanes without a child have no intensity.
 #[derive(Clone, Copy, Debug)]
-struct Quad {
+struct Node {
     centre: [Lanes; 3],
     /// Half the edges of the boxes.
     half: [Lanes; 3],
+    /// Half the diagonals of the boxes.
+    radius: Lanes,
     axis: [Lanes; 3],
     cos_normals: Lanes,
     sin_normals: Lanes,
@@ -62,10 +64,11 @@ pub(super) struct Leaf {
     pub(super) probability: f32,
 }
 
-impl Quad {
+impl Node {
     const EMPTY: Self = Self {
         centre: [[0.0; WIDTH]; 3],
         half: [[0.0; WIDTH]; 3],
+        radius: [0.0; WIDTH],
         axis: [[0.0; WIDTH]; 3],
         cos_normals: [0.0; WIDTH],
         sin_normals: [0.0; WIDTH],
@@ -82,6 +85,7 @@ impl Quad {
             self.half[axis][lane] = half[axis];
             self.axis[axis][lane] = b.normals.axis[axis];
         }
+        self.radius[lane] = half.length();
         self.cos_normals[lane] = b.normals.cos;
         self.sin_normals[lane] = (1.0 - b.normals.cos * b.normals.cos).max(0.0).sqrt();
         self.cos_emission[lane] = b.cos_emission;
@@ -96,11 +100,10 @@ impl Quad {
     /// Each cosine is three parts that at the centre of the child and one part the largest that its bounds allow (Conty Estévez
     /// & Kulla take the largest alone), and the squared distance is the mean over a ball of points within the bounds, d² + r²/3
     /// (their d², from below limited by r²): the variance of the choice falls to a half or less.
-    #[inline]
-    fn estimates(&self, from: &ReferencePoint) -> Lanes {
-        let p = from.p.p;
-        let receiver = Receiver::new(from);
-        let n = receiver.n;
+    #[inline(always)]
+    fn estimates(&self, receiver: &Receiver) -> Lanes {
+        let (p, n) = (receiver.p, receiver.n);
+        let n_abs = n.abs();
         let mut estimates = [0.0; WIDTH];
         #[expect(
             clippy::needless_range_loop,
@@ -108,14 +111,12 @@ impl Quad {
         )]
         for i in 0..WIDTH {
             let v = [p.x - self.centre[0][i], p.y - self.centre[1][i], p.z - self.centre[2][i]];
-            let half = [self.half[0][i], self.half[1][i], self.half[2][i]];
+            let radius = self.radius[i];
             let d2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).max(1e-24);
-            let r2 = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
             let inverse_d = 1.0 / d2.sqrt();
             // Half angle under which the ball around the box is seen; from inside everything is possible.
-            let sin2_seen = (r2 / d2).min(1.0);
-            let sin_seen = sin2_seen.sqrt();
-            let cos_seen = select(sin2_seen < 1.0, (1.0 - sin2_seen).sqrt(), -1.0);
+            let sin_seen = (radius * inverse_d).min(1.0);
+            let cos_seen = select(sin_seen < 1.0, (1.0 - sin_seen * sin_seen).sqrt(), -1.0);
 
             let cos_w =
                 (self.axis[0][i] * v[0] + self.axis[1][i] * v[1] + self.axis[2][i] * v[2]) * inverse_d;
@@ -134,35 +135,72 @@ impl Quad {
             let sin_i = (1.0 - cos_i * cos_i).max(0.0).sqrt();
             let most = select(cos_i >= cos_seen, 1.0, cos_i * cos_seen + sin_i * sin_seen);
             // The box, which is smaller than the ball, may lie behind the receiver altogether.
-            let top = towards + n.x.abs() * half[0] + n.y.abs() * half[1] + n.z.abs() * half[2];
-            let lit = !receiver.one_sided | (top > 0.0);
+            let reach = n_abs.x * self.half[0][i] + n_abs.y * self.half[1][i] + n_abs.z * self.half[2][i];
+            let lit = !receiver.one_sided | (towards + reach > 0.0);
             let received = select(lit, blend(most, cos_i), 0.0);
             let received = select(receiver.has_normal, received, 1.0);
 
-            estimates[i] = self.intensity[i] * emitted * received / (d2 + r2 * (1.0 / 3.0));
+            estimates[i] = self.intensity[i] * emitted * received / (d2 + radius * radius * (1.0 / 3.0));
         }
         estimates
     }
 
-    /// Probabilities of the children at a point; `None` when none of them contributes.
-    fn shares(&self, from: &ReferencePoint) -> Option<Lanes> {
-        let estimates = self.estimates(from);
-        let sum: f32 = estimates.iter().sum();
-        (sum > 0.0 && sum.is_finite()).then(|| estimates.map(|e| e / sum))
+    /// [`Node::estimates`] with their sums; `None` when none of the children contributes.
+    #[inline(always)]
+    fn shares(&self, receiver: &Receiver) -> Option<Shares> {
+        let estimates = self.estimates(receiver);
+        let mut sums = estimates;
+        for i in 1..WIDTH {
+            sums[i] += sums[i - 1];
+        }
+        let whole = sums[WIDTH - 1];
+        (whole > 0.0 && whole.is_finite()).then_some(Shares { estimates, sums, whole })
     }
 }
 
-/// What the receiver does with light.
+/// What the children of a node may contribute.
+struct Shares {
+    estimates: Lanes,
+    /// Of each child and those before it.
+    sums: Lanes,
+    whole: f32,
+}
+
+impl Shares {
+    #[inline(always)]
+    fn probability(&self, lane: usize) -> f32 {
+        self.estimates[lane] / self.whole
+    }
+
+    /// The child that `u` in [0, 1) chooses, and where in its share `u` lies.
+    #[inline(always)]
+    fn choose(&self, u: f32) -> (usize, f32) {
+        let target = u * self.whole;
+        let beyond = self.sums.iter().map(|&sum| u32::from(sum <= target)).sum::<u32>() as usize;
+        // Rounding may leave the target beyond all shares: the last child of any share then.
+        let lane = match beyond {
+            WIDTH => self.estimates.iter().rposition(|&e| e > 0.0).unwrap_or(0),
+            lane => lane,
+        };
+        let before = if lane > 0 { self.sums[lane - 1] } else { 0.0 };
+        (lane, ((target - before) / self.estimates[lane]).clamp(0.0, ONE_MINUS_EPSILON))
+    }
+}
+
+/// Where light is received, and what is done with it there.
 struct Receiver {
+    p: Vec3,
     n: Vec3,
     has_normal: bool,
     one_sided: bool,
 }
 
 impl Receiver {
+    #[inline(always)]
     fn new(from: &ReferencePoint) -> Self {
         let n = from.lit_side.or(from.ns).or(from.ng);
         Self {
+            p: *from.p.p,
             n: n.map_or(Vec3::ZERO, Vec3::from),
             has_normal: n.is_some(),
             one_sided: from.lit_side.is_some(),
@@ -196,10 +234,10 @@ impl LightTree {
         Some(tree)
     }
 
-    /// Adds a binary subtree as nodes of up to four children and returns the index of its own.
+    /// Adds a binary subtree as nodes of up to eight children and returns the index of its own.
     fn add(&mut self, pair: Pair, parent: Slot) -> u32 {
         let node = self.nodes.len() as u32;
-        self.nodes.push(Quad::EMPTY);
+        self.nodes.push(Node::EMPTY);
         self.parents.push(parent);
         for (lane, child) in (0..).zip(pair.widened()) {
             let slot = Slot { node, lane };
@@ -217,24 +255,18 @@ impl LightTree {
     }
 
     /// Chooses an emitter with `u` in [0, 1); `None` when none contributes at `from` along this path.
+    #[inline(always)]
     pub(super) fn sample(&self, from: &ReferencePoint, mut u: f32) -> Option<Leaf> {
+        let receiver = Receiver::new(from);
         let mut at = 0;
         let mut probability = 1.0;
         loop {
-            let quad = &self.nodes[at];
-            let shares = quad.shares(from)?;
-            // Rounding may leave `u` beyond all shares: the last child of any share then.
-            let (mut lane, mut before) = (0, 0.0);
-            let mut sum = 0.0;
-            for (i, &share) in shares.iter().enumerate() {
-                if share > 0.0 && u >= sum {
-                    (lane, before) = (i, sum);
-                }
-                sum += share;
-            }
-            probability *= shares[lane];
-            u = ((u - before) / shares[lane]).clamp(0.0, ONE_MINUS_EPSILON);
-            match quad.next[lane] {
+            let node = &self.nodes[at];
+            let shares = node.shares(&receiver)?;
+            let (lane, rest) = shares.choose(u);
+            probability *= shares.probability(lane);
+            u = rest;
+            match node.next[lane] {
                 Next::Node(node) => at = node as usize,
                 Next::Emitter(index) => return Some(Leaf { index, probability }),
                 Next::Nothing => return None,
@@ -243,12 +275,14 @@ impl LightTree {
     }
 
     /// Probability with which [`LightTree::sample`] chooses an emitter at `from`.
+    #[inline(always)]
     pub(super) fn probability(&self, from: &ReferencePoint, index: usize) -> f32 {
         let Some(mut slot) = self.leaves.get(index).copied().flatten() else { return 0.0 };
+        let receiver = Receiver::new(from);
         let mut probability = 1.0;
         loop {
-            let Some(shares) = self.nodes[slot.node as usize].shares(from) else { return 0.0 };
-            probability *= shares[usize::from(slot.lane)];
+            let Some(shares) = self.nodes[slot.node as usize].shares(&receiver) else { return 0.0 };
+            probability *= shares.probability(usize::from(slot.lane));
             if slot.node == 0 || probability == 0.0 {
                 return probability;
             }
@@ -293,7 +327,7 @@ impl Pair {
         Some(Self { bounds: a.bounds.union(&b.bounds), below: Below::Pairs(Box::new([a, b])) })
     }
 
-    /// Up to four descendants that make up the whole: the one that emits most over the largest surface is replaced by its children until
+    /// Up to eight descendants that make up the whole: the one that emits most over the largest surface is replaced by its children until
     /// there are enough.
     fn widened(self) -> Vec<Self> {
         let weight = |p: &Self| match p.below {
@@ -400,9 +434,9 @@ mod tests {
             }
             lit += 1;
             let b = EmitterBounds { bounds, normals, cos_emission: 0.0, intensity: 1.0, both_sides: false };
-            let mut quad = Quad::EMPTY;
-            quad.set(2, &b, Next::Emitter(0));
-            assert!(quad.estimates(&from)[2] > 0.0, "{b:?} {from:?}");
+            let mut node = Node::EMPTY;
+            node.set(2, &b, Next::Emitter(0));
+            assert!(node.estimates(&Receiver::new(&from))[2] > 0.0, "{b:?} {from:?}");
         }
         assert!(lit > 500, "{lit}");
     }
