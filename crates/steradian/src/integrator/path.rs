@@ -170,11 +170,14 @@ impl PathTracer {
             // By reference: hits and scattering functions are too large to be moved once more.
             let Some(hit) = &met else {
                 for light in scene.infinite_lights() {
-                    let escaped = scene.escaped(light, direction, w);
-                    if !escaped.is_zero() {
-                        let weight = arrival.weight(|_| scene.escape_density(light, direction));
-                        found.collect(depth, throughput * escaped * weight);
-                    }
+                    let escaped = match arrival {
+                        Arrival::Only => scene.escaped(light, direction, w),
+                        Arrival::Scattered { density, .. } => {
+                            let light = scene.escaped_with_density(light, direction, w);
+                            light.radiance * power_heuristic(density, light.density)
+                        }
+                    };
+                    found.collect(depth, throughput * escaped);
                 }
                 break;
             };

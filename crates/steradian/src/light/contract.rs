@@ -4,7 +4,7 @@
 
 use crate::math::{BoundedPoint, Dir, Normal};
 use crate::spectrum::Sampled;
-use crate::units::{Density, Radiance};
+use crate::units::{Density, PdfSolidAngle, Radiance};
 
 /// Index of a light in the scene's list of lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,6 +30,15 @@ pub struct LightSample {
     pub density: Density,
     /// Where the light comes from.
     pub target: LightTarget,
+}
+
+/// What a ray that leaves the scene finds in an infinite light.
+#[derive(Clone, Copy, Debug)]
+pub struct Escaped {
+    /// Radiance that arrives along the ray.
+    pub radiance: Sampled<Radiance>,
+    /// Density with which sampling the light finds the ray's direction.
+    pub density: PdfSolidAngle,
 }
 
 /// The far end of a shadow ray.

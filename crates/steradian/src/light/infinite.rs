@@ -1,6 +1,6 @@
 //! Lights at infinity: parallel light, a uniform sky, and environment maps.
 
-use super::contract::{LightError, LightPower, LightSample, LightTarget};
+use super::contract::{Escaped, LightError, LightPower, LightSample, LightTarget};
 use super::normalise::{Emission, Stated};
 use super::picture::{EmissionPicture, TexelLight};
 use crate::math::distribution::PiecewiseConstant2D;
@@ -175,8 +175,19 @@ impl ImageInfiniteLight {
         self.square(wi).map_or(Sampled::ZERO, |st| self.radiance(st, w))
     }
 
+    pub(super) fn escaped_with_density(&self, wi: Dir, w: &Wavelengths) -> Escaped {
+        match self.square(wi) {
+            Some(st) => Escaped { radiance: self.radiance(st, w), density: self.density_at(st) },
+            None => Escaped { radiance: Sampled::ZERO, density: PdfSolidAngle(0.0) },
+        }
+    }
+
     pub(super) fn density(&self, wi: Dir) -> PdfSolidAngle {
-        PdfSolidAngle(self.square(wi).map_or(0.0, |st| self.density.pdf(st) * UNIFORM_SPHERE_PDF))
+        self.square(wi).map_or(PdfSolidAngle(0.0), |st| self.density_at(st))
+    }
+
+    fn density_at(&self, st: Vec2) -> PdfSolidAngle {
+        PdfSolidAngle(self.density.pdf(st) * UNIFORM_SPHERE_PDF)
     }
 
     /// Into the scene's bounding sphere.

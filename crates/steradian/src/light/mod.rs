@@ -14,7 +14,7 @@ mod sky;
 mod tree;
 
 pub use area::{AreaRadiance, DiffuseAreaLight, Sides};
-pub use contract::{Emitter, LightError, LightId, LightPower, LightSample, LightTarget};
+pub use contract::{Emitter, Escaped, LightError, LightId, LightPower, LightSample, LightTarget};
 pub use infinite::{DistantLight, ImageInfiniteLight, UniformInfiniteLight};
 pub use normalise::{Amount, Emission, Stated, Total};
 pub use octahedral::latlong_to_octahedral;
@@ -147,6 +147,14 @@ impl Light {
             | Self::Projection(_)
             | Self::Photometric(_)
             | Self::DiffuseArea(_) => PdfSolidAngle(0.0),
+        }
+    }
+
+    /// [`Light::escaped`] and [`Light::escape_density`] at once: a picture has to be looked up but once.
+    pub fn escaped_with_density(&self, wi: Dir, w: &Wavelengths) -> Escaped {
+        match self {
+            Self::ImageInfinite(l) => l.escaped_with_density(wi, w),
+            _ => Escaped { radiance: self.escaped(wi, w), density: self.escape_density(wi) },
         }
     }
 

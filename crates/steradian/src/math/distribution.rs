@@ -153,18 +153,7 @@ impl PiecewiseConstant1D {
 
     /// Draws a position with density f/∫f.
     pub fn sample(&self, u: f32) -> Sample1D {
-        let n = self.f.len();
-        let mut cell = self.guide[((u * n as f32) as usize).min(n - 1)] as usize;
-        // Rounding can lead into the part after its own.
-        while cell > 0 && self.cdf[cell] > u {
-            cell -= 1;
-        }
-        while cell + 1 < n && self.cdf[cell + 1] <= u {
-            cell += 1;
-        }
-        let width = self.cdf[cell + 1] - self.cdf[cell];
-        let within = if width > 0.0 { ((u - self.cdf[cell]) / width).clamp(0.0, 1.0) } else { 0.5 };
-        let x = ((cell as f32 + within) / n as f32).min(super::float::ONE_MINUS_EPSILON);
+        let Quantile { cell, x } = quantile(&self.guide, &self.cdf, u);
         Sample1D { x, pdf: self.cell_pdf(cell), cell }
     }
 
@@ -181,10 +170,41 @@ impl PiecewiseConstant1D {
     }
 }
 
+/// Where a cumulative density reaches a value.
+struct Quantile {
+    cell: usize,
+    /// Position in [0, 1].
+    x: f32,
+}
+
+/// The place where `cdf`, of n cells, reaches `u`.
+#[inline]
+fn quantile(guide: &[u32], cdf: &[f32], u: f32) -> Quantile {
+    let n = guide.len();
+    let mut cell = guide[((u * n as f32) as usize).min(n - 1)] as usize;
+    // Rounding can lead into the part after its own.
+    while cell > 0 && cdf[cell] > u {
+        cell -= 1;
+    }
+    while cell + 1 < n && cdf[cell + 1] <= u {
+        cell += 1;
+    }
+    let width = cdf[cell + 1] - cdf[cell];
+    let within = if width > 0.0 { ((u - cdf[cell]) / width).clamp(0.0, 1.0) } else { 0.5 };
+    Quantile { cell, x: ((cell as f32 + within) / n as f32).min(super::float::ONE_MINUS_EPSILON) }
+}
+
 /// A function on [0, 1]², constant on nx × ny equal cells, sampled by rows.
+///
+/// The rows lie one after another: pictures of skies are larger than caches, and each array that is looked at costs a
+/// trip to memory.
 #[derive(Clone, Debug)]
 pub struct PiecewiseConstant2D {
-    rows: Vec<PiecewiseConstant1D>,
+    nx: usize,
+    f: Vec<f32>,
+    /// Of each row, nx + 1 values.
+    cdfs: Vec<f32>,
+    guides: Vec<u32>,
     marginal: PiecewiseConstant1D,
 }
 
@@ -192,9 +212,17 @@ impl PiecewiseConstant2D {
     /// From `nx × ny` cell values in rows, first row at y = 0.
     pub fn new(f: &[f32], nx: usize, ny: usize) -> Self {
         debug_assert_eq!(f.len(), nx * ny);
-        let rows: Vec<_> = f.chunks(nx.max(1)).map(PiecewiseConstant1D::new).collect();
-        let sums: Vec<f32> = rows.iter().map(PiecewiseConstant1D::integral).collect();
-        Self { rows, marginal: PiecewiseConstant1D::new(&sums) }
+        let nx = nx.max(1);
+        let (mut cdfs, mut guides) = (Vec::with_capacity((nx + 1) * ny), Vec::with_capacity(nx * ny));
+        let mut sums = Vec::with_capacity(ny);
+        for row in f.chunks_exact(nx) {
+            let row = PiecewiseConstant1D::new(row);
+            sums.push(row.integral);
+            cdfs.extend(row.cdf);
+            guides.extend(row.guide);
+        }
+        let f = f.iter().map(|v| v.abs()).collect();
+        Self { nx, f, cdfs, guides, marginal: PiecewiseConstant1D::new(&sums) }
     }
 
     /// ∫∫ f over the unit square.
@@ -204,15 +232,27 @@ impl PiecewiseConstant2D {
 
     /// Draws a point and its density per unit area of the square.
     pub fn sample(&self, u: Vec2) -> (Vec2, f32) {
-        let y = self.marginal.sample(u.y);
-        let x = self.rows[y.cell.min(self.rows.len() - 1)].sample(u.x);
-        (Vec2::new(x.x, y.x), x.pdf * y.pdf)
+        let Quantile { cell: row, x: y } = quantile(&self.marginal.guide, &self.marginal.cdf, u.y);
+        let (guide, cdf) = (row * self.nx, row * (self.nx + 1));
+        let Quantile { cell: column, x } =
+            quantile(&self.guides[guide..guide + self.nx], &self.cdfs[cdf..cdf + self.nx + 1], u.x);
+        (Vec2::new(x, y), self.cell_pdf(row, column))
     }
 
-    /// Density at `p`.
+    /// Density at `p`, zero outside the square.
     pub fn pdf(&self, p: Vec2) -> f32 {
-        let row = ((p.y.clamp(0.0, 1.0) * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
-        self.marginal.pdf(p.y) * self.rows[row].pdf(p.x)
+        if !(p.cmpge(Vec2::ZERO) & p.cmple(Vec2::ONE)).all() {
+            return 0.0;
+        }
+        let cell = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
+        self.cell_pdf(cell(p.y, self.marginal.f.len()), cell(p.x, self.nx))
+    }
+
+    /// That of the row times that within the row, in which the row's own integral cancels.
+    #[inline]
+    fn cell_pdf(&self, row: usize, column: usize) -> f32 {
+        let integral = self.integral();
+        if integral > 0.0 { self.f[row * self.nx + column] / integral } else { 1.0 }
     }
 }
 

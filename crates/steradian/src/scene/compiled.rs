@@ -2,7 +2,7 @@
 
 use crate::accel::{Accel, Candidate};
 use crate::camera::Camera;
-use crate::light::{Emitter, Light, LightId, LightSampler, LightTarget};
+use crate::light::{Emitter, Escaped, Light, LightId, LightSampler, LightTarget};
 use crate::material::{MaterialId, Materials, SurfaceBsdf};
 use crate::math::{Dir, Footprint, Ray, SurfacePoint, Vec2, hash};
 use crate::shape::{ReferencePoint, Shape, ShapeId};
@@ -107,6 +107,7 @@ impl Scene {
     }
 
     /// Density per solid angle with which [`Scene::sample_light`] finds a point of an emitter along `wi`.
+    #[inline(always)]
     pub fn emitter_density(
         &self,
         e: Emitter,
@@ -128,10 +129,11 @@ impl Scene {
         self.lights[light.0 as usize].escaped(direction, w)
     }
 
-    /// Density per solid angle with which [`Scene::sample_light`] finds `direction` by an infinite light.
-    pub fn escape_density(&self, light: LightId, direction: Dir) -> PdfSolidAngle {
+    /// [`Scene::escaped`] with the density per solid angle with which [`Scene::sample_light`] finds `direction` by that light.
+    pub fn escaped_with_density(&self, light: LightId, direction: Dir, w: &Wavelengths) -> Escaped {
+        let Escaped { radiance, density } = self.lights[light.0 as usize].escaped_with_density(direction, w);
         let p = self.light_sampler.probability(Emitter { light, prim: 0 });
-        PdfSolidAngle(p * self.lights[light.0 as usize].escape_density(direction).0)
+        Escaped { radiance, density: PdfSolidAngle(p * density.0) }
     }
 
     /// One light, chosen at random, and a direction to it.
