@@ -12,6 +12,9 @@ const GROUP: usize = 8;
 /// Squared L*a*b* distance below which a fit has converged: 10⁻⁵, far below any visible difference.
 const CONVERGED: f64 = 1e-10;
 
+/// Squared L*a*b* distance from which one more step leads closer than interpolation in a table keeps.
+const NEAR: f64 = 1e-3;
+
 /// Weights that turn a reflectance into X/Xₙ, Y/Yₙ, Z/Zₙ under one illuminant.
 #[derive(Clone, Debug)]
 pub(super) struct FitBasis {
@@ -66,15 +69,20 @@ impl FitBasis {
     }
 
     fn linearise(&self, c: DVec3) -> Linearised {
-        let t = &self.t;
-        let x: [f64; NODES] = std::array::from_fn(|i| (c.x * t[i] + c.y) * t[i] + c.z);
-        let q = x.map(|x| 1.0 / (1.0 + x * x).sqrt());
-        // The reflectance at the nodes and its derivatives by the coefficients.
-        let value: [f64; NODES] = std::array::from_fn(|i| 0.5 + 0.5 * x[i] * q[i]);
-        let by_c2 = q.map(|q| 0.5 * q * q * q);
-        let by_c1: [f64; NODES] = std::array::from_fn(|i| by_c2[i] * t[i]);
-        let by_c0: [f64; NODES] = std::array::from_fn(|i| by_c1[i] * t[i]);
-        let gather = |term: &[f64; NODES]| DVec3::from_array(self.weight.each_ref().map(|w| dot(w, term)));
+        // The reflectance at the nodes and its derivatives by the coefficients; loops, which become vector instructions.
+        let [mut value, mut by_c0, mut by_c1, mut by_c2] = [[0.0; NODES]; 4];
+        for (i, &t) in self.t.iter().enumerate() {
+            let x = (c.x * t + c.y) * t + c.z;
+            let q = 1.0 / (1.0 + x * x).sqrt();
+            value[i] = 0.5 + 0.5 * x * q;
+            by_c2[i] = 0.5 * q * q * q;
+            by_c1[i] = by_c2[i] * t;
+            by_c0[i] = by_c1[i] * t;
+        }
+        let gather = |term: &[f64; NODES]| {
+            let [x, y, z] = &self.weight;
+            DVec3::new(dot(x, term), dot(y, term), dot(z, term))
+        };
         Linearised {
             value: gather(&value),
             by_coefficient: DMat3::from_cols(gather(&by_c0), gather(&by_c1), gather(&by_c2)),
@@ -101,37 +109,52 @@ impl FitBasis {
     }
 
     /// The coefficients at which a descent from `start` ends.
-    ///
+    pub(super) fn descend(&self, target: DVec3, start: DVec3) -> Fit {
+        self.descent(target, start, CONVERGED).0
+    }
+
+    /// [`FitBasis::descend`] for tables, from a `start` that is near: where a step begins within [`NEAR`] of the target, its end is
+    /// not looked at.
+    pub(super) fn approach(&self, target: DVec3, start: DVec3) -> DVec3 {
+        let (fit, next) = self.descent(target, start, NEAR);
+        next.unwrap_or(fit.coefficients)
+    }
+
     /// Levenberg–Marquardt: Gauss–Newton as in Jakob & Hanika 2019, section 3.2, damped, and with a penalty that keeps
     /// the coefficients of colours that no reflectance shows (and of black and white) finite.
-    pub(super) fn descend(&self, target: DVec3, start: DVec3) -> Fit {
+    ///
+    /// Ends once the error is below `near`, with the step that would come next.
+    fn descent(&self, target: DVec3, start: DVec3, near: f64) -> (Fit, Option<DVec3>) {
         const MAX_ITERATIONS: usize = 60;
-        let goal = lab(target);
+        let goal = Lab::new(target).value;
         let mut c = start;
         let mut here = self.linearise(c);
-        let mut residual = lab(here.value) - goal;
+        let mut shown = Lab::new(here.value);
+        let mut residual = shown.value - goal;
         let mut error = residual.length_squared();
         let mut cost = error + penalty(c).length_squared();
-        let mut damping = 1e-4;
+        let mut damping = 1e-8;
         for _ in 0..MAX_ITERATIONS {
-            if error < CONVERGED {
-                break;
-            }
-            let jacobian = lab_jacobian(here.value) * here.by_coefficient;
+            let jacobian = shown.by_xyz * here.by_coefficient;
             let stiffness = penalty_slope(c);
             let normal = jacobian.transpose() * jacobian + DMat3::from_diagonal(stiffness * stiffness);
             let gradient = jacobian.transpose() * residual + stiffness * penalty(c);
             let scale = normal.x_axis.x.max(normal.y_axis.y).max(normal.z_axis.z);
             let damped = normal + DMat3::from_diagonal(DVec3::splat(damping * scale));
             let next = c - damped.inverse() * gradient;
+            if error < near {
+                return (Fit { coefficients: c, error }, next.is_finite().then_some(next));
+            }
             let there = self.linearise(next);
-            let next_residual = lab(there.value) - goal;
+            let next_shown = Lab::new(there.value);
+            let next_residual = next_shown.value - goal;
             let next_error = next_residual.length_squared();
             let next_cost = next_error + penalty(next).length_squared();
             // A comparison that a NaN fails: an overflowed step is a rejected step.
             if next_cost < cost {
                 let stalled = next_cost > cost * (1.0 - 1e-6);
-                (c, here, residual, error, cost) = (next, there, next_residual, next_error, next_cost);
+                (c, here, shown) = (next, there, next_shown);
+                (residual, error, cost) = (next_residual, next_error, next_cost);
                 damping = (damping * 0.1).max(1e-12);
                 if stalled {
                     break;
@@ -143,7 +166,7 @@ impl FitBasis {
                 }
             }
         }
-        Fit { coefficients: c, error }
+        (Fit { coefficients: c, error }, None)
     }
 }
 
@@ -151,7 +174,9 @@ impl FitBasis {
 fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
     let mut sum = [0.0; GROUP];
     for (a, b) in a.as_chunks::<GROUP>().0.iter().zip(b.as_chunks::<GROUP>().0) {
-        sum = std::array::from_fn(|k| sum[k] + a[k] * b[k]);
+        for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
     }
     sum.iter().sum()
 }
@@ -194,23 +219,32 @@ pub(super) fn to_sigmoid(c: DVec3) -> Sigmoid {
 
 const DELTA: f64 = 6.0 / 29.0;
 
-/// CIE L*a*b* of relative XYZ (CIE 15:2018, 8.2.1).
-fn lab(v: DVec3) -> DVec3 {
-    let f = |t: f64| {
-        if t > DELTA * DELTA * DELTA { t.cbrt() } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 }
-    };
-    let (fx, fy, fz) = (f(v.x), f(v.y), f(v.z));
-    DVec3::new(116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz))
+/// CIE L*a*b* (CIE 15:2018, 8.2.1) and its derivatives by relative XYZ.
+struct Lab {
+    value: DVec3,
+    by_xyz: DMat3,
 }
 
-fn lab_jacobian(v: DVec3) -> DMat3 {
-    let slope = |t: f64| {
-        if t > DELTA * DELTA * DELTA { 1.0 / (3.0 * t.cbrt().powi(2)) } else { 1.0 / (3.0 * DELTA * DELTA) }
-    };
-    let (dx, dy, dz) = (slope(v.x), slope(v.y), slope(v.z));
-    DMat3::from_cols(
-        DVec3::new(0.0, 500.0 * dx, 0.0),
-        DVec3::new(116.0 * dy, -500.0 * dy, 200.0 * dy),
-        DVec3::new(0.0, 0.0, -200.0 * dz),
-    )
+impl Lab {
+    fn new(v: DVec3) -> Self {
+        // The function under L*, a* and b*, and its slope.
+        let f = |t: f64| {
+            if t > DELTA * DELTA * DELTA {
+                let root = t.cbrt();
+                (root, 1.0 / (3.0 * root * root))
+            } else {
+                let slope = 1.0 / (3.0 * DELTA * DELTA);
+                (t * slope + 4.0 / 29.0, slope)
+            }
+        };
+        let ((x, dx), (y, dy), (z, dz)) = (f(v.x), f(v.y), f(v.z));
+        Self {
+            value: DVec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)),
+            by_xyz: DMat3::from_cols(
+                DVec3::new(0.0, 500.0 * dx, 0.0),
+                DVec3::new(116.0 * dy, -500.0 * dy, 200.0 * dy),
+                DVec3::new(0.0, 0.0, -200.0 * dz),
+            ),
+        }
+    }
 }

@@ -33,7 +33,7 @@ pub fn compile(desc: SceneDesc, files: &dyn FileSystem, diagnostics: &mut Diagno
     compile_with_tables(desc, files, &UpsamplingTables::new(), diagnostics)
 }
 
-/// The same as [`compile`], with tables that earlier scenes have built: they cost half a second each.
+/// The same as [`compile`], with tables that earlier scenes have built: they cost a tenth of a second each.
 pub fn compile_with_tables(
     mut desc: SceneDesc,
     files: &dyn FileSystem,
