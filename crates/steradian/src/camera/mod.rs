@@ -7,7 +7,7 @@ mod contract;
 mod projection;
 mod screen;
 
-use crate::math::{AnimatedTransform, Dir, Frame, Normal, Point, Ray, Vec2, Vec3};
+use crate::math::{AnimatedTransform, Dir, Frame, Normal, Point, Ray, Transform, Vec2, Vec3};
 
 pub use contract::{CameraError, CameraRay, CameraSample, PointMotion};
 pub use projection::{Lens, Orthographic, Perspective, Projection, SphereMap, Spherical};
@@ -40,9 +40,10 @@ impl Camera {
     pub fn ray(&self, sample: &CameraSample) -> Option<CameraRay> {
         let local = self.projection.ray(sample.film, sample.lens);
         let time = self.time(sample.time);
-        let to_render = self.render_from_camera.at(time);
-        let d = Dir::new(to_render.vector(local.d))?;
-        Some(CameraRay { ray: Ray { o: to_render.point(Point(local.o)), d: *d, time }, weight: 1.0 })
+        self.render_from_camera.through(time, |to_render| {
+            let d = Dir::new(to_render.vector(local.d))?;
+            Some(CameraRay { ray: Ray { o: to_render.point(Point(local.o)), d: *d, time }, weight: 1.0 })
+        })
     }
 
     /// Film size [px].
@@ -85,11 +86,13 @@ impl Camera {
         time: f32,
         samples_per_pixel: u32,
     ) -> PointMotion {
+        self.render_from_camera.through(time, |to_render| self.footprint(to_render, p, n, samples_per_pixel))
+    }
+
+    fn footprint(&self, to_render: &Transform, p: Point, n: Normal, samples_per_pixel: u32) -> PointMotion {
         const NONE: PointMotion = PointMotion { dpdx: Vec3::ZERO, dpdy: Vec3::ZERO };
-        let to_render = self.render_from_camera.at(time);
-        let to_camera = to_render.inverse();
-        let there = *to_camera.point(p);
-        let (Some(axis), n) = (Dir::new(there), to_camera.normal_vector(*n)) else { return NONE };
+        let there = *to_render.point_back(p);
+        let (Some(axis), n) = (Dir::new(there), to_render.normal_vector_back(*n)) else { return NONE };
         let distance = axis.dot(there);
         let turned = Turned::new(axis);
         // Of any length: only ratios of its components count.

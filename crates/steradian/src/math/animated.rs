@@ -104,6 +104,12 @@ impl AnimatedTransform {
         Transform::from_matrix(m.as_mat4()).unwrap_or(self.start)
     }
 
+    /// What `f` makes of the transform at `time`; one that does not move is not copied.
+    #[inline]
+    pub fn through<T>(&self, time: f32, f: impl FnOnce(&Transform) -> T) -> T {
+        if self.motion.is_none() { f(&self.start) } else { f(&self.at(time)) }
+    }
+
     /// A box around `b` at every time of the interval.
     pub fn motion_bounds(&self, b: &Bounds3) -> Bounds3 {
         if b.is_empty() {

@@ -132,12 +132,19 @@ impl Transform {
     }
 
     /// Applies to a point, with the homogeneous division where the transform is projective.
+    #[inline]
     pub fn point(&self, p: Point) -> Point {
-        let h: Vec4 = self.m * p.0.extend(1.0);
-        if h.w == 1.0 { Point(h.truncate()) } else { Point(h.truncate() / h.w) }
+        transformed(&self.m, p)
+    }
+
+    /// [`Transform::point`] of the inverse.
+    #[inline]
+    pub fn point_back(&self, p: Point) -> Point {
+        transformed(&self.inverse, p)
     }
 
     /// Applies to a vector (translation does not act).
+    #[inline]
     pub fn vector(&self, v: Vec3) -> Vec3 {
         self.m.transform_vector3(v)
     }
@@ -148,8 +155,15 @@ impl Transform {
     }
 
     /// Applies to a normal (inverse transpose), not normalised.
+    #[inline]
     pub fn normal_vector(&self, n: Vec3) -> Vec3 {
-        glam::Mat3::from_mat4(self.inverse).transpose() * n
+        products(&self.inverse, n)
+    }
+
+    /// [`Transform::normal_vector`] of the inverse.
+    #[inline]
+    pub fn normal_vector_back(&self, n: Vec3) -> Vec3 {
+        products(&self.m, n)
     }
 
     /// Applies to a normal and normalises; `None` when the result has no length.
@@ -191,6 +205,19 @@ impl Mul for Transform {
             inverse: (rhs.inverse.as_dmat4() * self.inverse.as_dmat4()).as_mat4(),
         }
     }
+}
+
+#[inline]
+fn transformed(m: &Mat4, p: Point) -> Point {
+    let h: Vec4 = *m * p.0.extend(1.0);
+    if h.w == 1.0 { Point(h.truncate()) } else { Point(h.truncate() / h.w) }
+}
+
+/// The products of `n` with the first three columns: the transposed matrix applied to it.
+#[inline]
+fn products(m: &Mat4, n: Vec3) -> Vec3 {
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis].map(|column| column.truncate().dot(n));
+    Vec3::new(x, y, z)
 }
 
 #[cfg(test)]

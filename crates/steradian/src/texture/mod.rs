@@ -222,6 +222,7 @@ impl Textures {
     }
 
     /// The value of a spectrum-valued texture at a path's wavelengths. An id of another arena is a broken invariant.
+    #[inline(never)]
     pub fn spectrum(&self, id: SpectrumTextureId, at: &TextureContext, w: &Wavelengths) -> Sampled<Unitless> {
         match &self.spectra[id.0 as usize].texture {
             SpectrumTexture::Scale { texture, scale } => {
@@ -260,7 +261,7 @@ impl Textures {
     }
 
     /// The value of a spectrum that may be textured, at a path's wavelengths.
-    #[inline]
+    #[inline(always)]
     pub fn spectrum_input(
         &self,
         input: &SpectrumInput,

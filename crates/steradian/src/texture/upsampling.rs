@@ -37,7 +37,7 @@ impl ColorTable {
     pub(super) fn sample(&self, rgb: Rgb, reading: SpectrumUse, w: &Wavelengths) -> Sampled<Unitless> {
         let shape = |rgb, scale: f32| {
             let sigmoid = self.table.sigmoid(rgb);
-            Sampled::from_array(w.lambda().map(|l| scale * sigmoid.at(l)))
+            Sampled::from_fn(|lane| scale * sigmoid.at(w.lambda()[lane]))
         };
         match reading {
             SpectrumUse::Albedo => shape(rgb, 1.0),
