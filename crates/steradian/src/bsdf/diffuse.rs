@@ -37,7 +37,7 @@ impl Diffuse {
     }
 
     /// A cosine-distributed direction on the side of `wo`.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, wo: LocalDir, u: Vec2) -> Option<BsdfSample> {
         cosine_sample(wo, Side::Reflection, 1.0, self.reflectance, u)
     }

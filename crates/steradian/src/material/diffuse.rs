@@ -25,7 +25,7 @@ impl Declared for DiffuseMaterial {
         self.reflectance.is_textured()
     }
 
-    #[inline]
+    #[inline(always)]
     fn scatterer<'a>(&'a self, lookup: &mut Lookup<'_>, _seed: u64) -> Option<Bsdf<'a>> {
         Some(Bsdf::Diffuse(Diffuse { reflectance: lookup.reflectance(&self.reflectance) }))
     }

@@ -33,7 +33,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// A spectrum at the path's wavelengths.
-    #[inline]
+    #[inline(always)]
     pub fn spectrum(&self, input: &SpectrumInput) -> Sampled<Unitless> {
         self.textures.spectrum_input(input, &self.at, self.wavelengths)
     }
@@ -54,7 +54,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// A reflectance, limited to what a surface can reflect.
-    #[inline]
+    #[inline(always)]
     pub fn reflectance(&self, input: &SpectrumInput) -> Sampled<Unitless> {
         self.spectrum(input).clamp(0.0, 1.0)
     }

@@ -1,6 +1,6 @@
 //! A scattering function placed on a surface: world directions in, world directions out.
 
-use crate::bsdf::{Bsdf, Lobe, Lobes, Mode, Side};
+use crate::bsdf::{Bsdf, Evaluated, Lobe, Lobes, Mode, Side};
 use crate::math::warp::cosine_hemisphere_pdf;
 use crate::math::{Dir, Frame, Normal, Shading, Vec2};
 use crate::spectrum::Sampled;
@@ -35,7 +35,7 @@ pub struct SurfaceSample {
 pub struct Evaluation {
     /// f [sr⁻¹], as [`SurfaceBsdf::eval`] gives it.
     pub f: Sampled<PerSteradian>,
-    /// Density as [`SurfaceBsdf::pdf`] gives it; zero where f is.
+    /// Density as [`SurfaceBsdf::pdf`] gives it.
     pub pdf: PdfSolidAngle,
 }
 
@@ -71,8 +71,7 @@ impl<'a> SurfaceBsdf<'a> {
             };
         }
         let (wo, wi) = (self.frame.to_local(wo), self.frame.to_local(wi));
-        let f = self.bsdf.eval(wo, wi, mode);
-        let pdf = if f.is_zero() { PdfSolidAngle(0.0) } else { self.bsdf.pdf(wo, wi, mode) };
+        let Evaluated { f, pdf } = self.bsdf.evaluate(wo, wi, mode);
         Evaluation { f, pdf }
     }
 
