@@ -56,9 +56,68 @@ impl ColorEncoding {
     }
 }
 
+/// [`ColorEncoding::quantize`] for many values, by search instead of powers.
+pub(super) struct Quantizer {
+    /// Where each code ends and the next begins, in linear light.
+    ends: [f32; 255],
+    /// The code of the start of each of equal parts of [0, 1].
+    guide: [u8; GUIDES],
+}
+
+/// Enough for a step or two in the dark, where codes are densest.
+const GUIDES: usize = 4096;
+
+impl Quantizer {
+    pub(super) fn new(encoding: ColorEncoding) -> Self {
+        let ends = std::array::from_fn(|code| encoding.to_linear((code as f32 + 0.5) / 255.0));
+        let mut quantizer = Self { ends, guide: [0; GUIDES] };
+        let mut code = 0;
+        for i in 0..GUIDES {
+            code = quantizer.advance(code, i as f32 / GUIDES as f32);
+            quantizer.guide[i] = code;
+        }
+        quantizer
+    }
+
+    /// Nearest code of a linear value.
+    #[inline]
+    pub(super) fn code(&self, linear: f32) -> u8 {
+        // The cast of a float to an integer saturates, and maps NaN to zero.
+        let part = ((linear * GUIDES as f32) as usize).min(GUIDES - 1);
+        self.advance(self.guide[part], linear)
+    }
+
+    /// The code of a linear value that is not below the start of `code`.
+    #[inline]
+    fn advance(&self, mut code: u8, linear: f32) -> u8 {
+        while self.ends.get(usize::from(code)).is_some_and(|&end| linear >= end) {
+            code += 1;
+        }
+        code
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_values_are_quantised_as_one_is() {
+        for encoding in [ColorEncoding::Srgb, ColorEncoding::Linear, ColorEncoding::Gamma(2.2)] {
+            let quantizer = Quantizer::new(encoding);
+            for i in -100..70_000 {
+                let v = (i as f32 / 60_000.0).powi(3);
+                let exact = encoding.from_linear(v) * 255.0 + 0.5;
+                // Rounding decides where two codes meet.
+                if (exact - exact.round()).abs() > 1e-3 {
+                    assert_eq!(quantizer.code(v), encoding.quantize(v), "{encoding:?} {v}");
+                }
+            }
+            for v in [f32::NAN, f32::NEG_INFINITY, f32::INFINITY] {
+                assert_eq!(quantizer.code(v), encoding.quantize(v), "{encoding:?} {v}");
+            }
+        }
+    }
 
     #[test]
     fn every_code_survives_decoding_and_quantising() {

@@ -1,6 +1,6 @@
 //! A decoded picture: texels in their stored precision, read as linear values.
 
-use super::encoding::ColorEncoding;
+use super::encoding::{ColorEncoding, Quantizer};
 use super::error::ImageError;
 use super::wrap::Wrap;
 use crate::color::{ColorSpaceKind, Rgb};
@@ -58,6 +58,16 @@ pub struct Image {
 /// Four texels and their bilinear weights; `None` lies in the black.
 type Taps = [(Option<usize>, f32); 4];
 
+/// Four texels of which none lies beyond an edge.
+struct Inside {
+    /// Where the left texel of the upper and of the lower row begins.
+    rows: [usize; 2],
+    /// From the left texel to the right one, in [0, 1).
+    dx: f32,
+    /// From the upper row to the lower one, in [0, 1).
+    dy: f32,
+}
+
 impl Image {
     /// A picture from 8-bit codes, channels interleaved, rows from the top.
     ///
@@ -97,13 +107,11 @@ impl Image {
     pub(crate) fn like(&self, width: u32, height: u32, linear: &[f32]) -> Result<Self, ImageError> {
         let l = self.layout;
         let image = match &self.texels {
-            Texels::U8 { encoding, .. } => Self::from_u8(
-                width,
-                height,
-                l,
-                linear.iter().map(|&v| encoding.quantize(v)).collect(),
-                *encoding,
-            ),
+            Texels::U8 { encoding, .. } => {
+                let quantizer = Quantizer::new(*encoding);
+                let codes = linear.iter().map(|&v| quantizer.code(v)).collect();
+                Self::from_u8(width, height, l, codes, *encoding)
+            }
             Texels::F16(_) => {
                 Self::from_f16(width, height, l, linear.iter().map(|&v| f16::from_f32(v)).collect())
             }
@@ -180,16 +188,52 @@ impl Image {
 
     /// Bilinear interpolation of [`Image::rgb`] at `st`, where [0, 1]² is the picture and t points down.
     pub fn bilerp_rgb(&self, st: Vec2, wrap: Wrap) -> Rgb {
-        let taps = self.taps(st, wrap);
         // Chosen once, not for each channel of each texel.
         match (&self.texels, self.layout) {
             (_, Layout::Gray) => Rgb(Vec3::splat(self.bilerp_scalar(st, wrap))),
             (Texels::U8 { codes, linear, .. }, Layout::Rgb | Layout::Rgba) => {
-                blend(&taps, codes, |code| linear[usize::from(code)])
+                self.blend(codes, st, wrap, |code| linear[usize::from(code)])
             }
-            (Texels::F16(v), Layout::Rgb | Layout::Rgba) => blend(&taps, v, f16::to_f32),
-            (Texels::F32(v), Layout::Rgb | Layout::Rgba) => blend(&taps, v, |v| v),
+            (Texels::F16(v), Layout::Rgb | Layout::Rgba) => self.blend(v, st, wrap, f16::to_f32),
+            (Texels::F32(v), Layout::Rgb | Layout::Rgba) => self.blend(v, st, wrap, |v| v),
         }
+    }
+
+    /// The first three channels between the four texels around `st`.
+    #[inline]
+    fn blend<T: Copy>(&self, values: &[T], st: Vec2, wrap: Wrap, linear: impl Fn(T) -> f32) -> Rgb {
+        let color = |[r, g, b]: [T; 3]| Vec3::new(linear(r), linear(g), linear(b));
+        if let Some(Inside { rows, dx, dy }) = self.inside(st, wrap) {
+            let channels = self.layout.channels();
+            let row = |first: usize| {
+                let texels = values.get(first..first + 2 * channels)?;
+                let (&left, &right) = (texels.first_chunk()?, texels.get(channels..)?.first_chunk()?);
+                Some(color(left) * (1.0 - dx) + color(right) * dx)
+            };
+            if let (Some(upper), Some(lower)) = (row(rows[0]), row(rows[1])) {
+                return Rgb(upper * (1.0 - dy) + lower * dy);
+            }
+        }
+        let mut sum = Vec3::ZERO;
+        for (base, weight) in self.taps(st, wrap) {
+            if let Some(&texel) = base.and_then(|base| values.get(base..)).and_then(<[T]>::first_chunk) {
+                sum += color(texel) * weight;
+            }
+        }
+        Rgb(sum)
+    }
+
+    /// The four texels around `st` where they lie side by side in one copy of the picture, as nearly all do.
+    #[inline]
+    fn inside(&self, st: Vec2, wrap: Wrap) -> Option<Inside> {
+        let st = if wrap == Wrap::REPEAT { st.map(tiled) } else { st };
+        let (x, y) = (st.x * self.width as f32 - 0.5, st.y * self.height as f32 - 0.5);
+        let within = |x: f32, n: u32| x >= 0.0 && x < (n - 1) as f32;
+        (within(x, self.width) && within(y, self.height)).then(|| {
+            let first = self.base(x as u32, y as u32);
+            let rows = [first, first + self.width as usize * self.layout.channels()];
+            Inside { rows, dx: x - x as u32 as f32, dy: y - y as u32 as f32 }
+        })
     }
 
     /// Bilinear interpolation of [`Image::scalar`] at `st`, where [0, 1]² is the picture and t points down.
@@ -258,6 +302,18 @@ impl Image {
             .collect()
     }
 
+    /// Writes the linear values of row `y`, channels interleaved, to `out`, which has as many.
+    pub(super) fn read_row(&self, y: u32, out: &mut [f32]) {
+        let values = self.base(0, y)..self.base(0, y) + self.width as usize * self.layout.channels();
+        match &self.texels {
+            Texels::U8 { codes, linear, .. } => {
+                out.iter_mut().zip(&codes[values]).for_each(|(out, &code)| *out = linear[usize::from(code)]);
+            }
+            Texels::F16(v) => out.iter_mut().zip(&v[values]).for_each(|(out, v)| *out = v.to_f32()),
+            Texels::F32(v) => out.copy_from_slice(&v[values]),
+        }
+    }
+
     fn taps(&self, st: Vec2, wrap: Wrap) -> Taps {
         let (x, y) = (st.x * self.width as f32 - 0.5, st.y * self.height as f32 - 0.5);
         let (x0, y0) = (x.floor(), y.floor());
@@ -286,7 +342,7 @@ impl Image {
     }
 
     /// Linear value of the i-th sample in storage order.
-    pub(super) fn value(&self, i: usize) -> f32 {
+    fn value(&self, i: usize) -> f32 {
         match &self.texels {
             Texels::U8 { codes, linear, .. } => linear[usize::from(codes[i])],
             Texels::F16(v) => v[i].to_f32(),
@@ -312,16 +368,11 @@ impl Image {
     }
 }
 
-/// The weighted sum of the first three channels at each tap.
+/// What is left of a coordinate of tiles, in [0, 1]; anything where an integer cannot hold the number of tiles.
 #[inline]
-fn blend<T: Copy>(taps: &Taps, values: &[T], linear: impl Fn(T) -> f32) -> Rgb {
-    let mut sum = Vec3::ZERO;
-    for &(base, weight) in taps {
-        if let Some(&[r, g, b]) = base.and_then(|base| values.get(base..)).and_then(<[T]>::first_chunk) {
-            sum += Vec3::new(linear(r), linear(g), linear(b)) * weight;
-        }
-    }
-    Rgb(sum)
+fn tiled(x: f32) -> f32 {
+    let rest = x - x as i32 as f32;
+    if rest < 0.0 { rest + 1.0 } else { rest }
 }
 
 fn check_len(width: u32, height: u32, layout: Layout, found: usize) -> Result<(), ImageError> {

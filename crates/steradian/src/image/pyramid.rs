@@ -2,6 +2,7 @@
 
 use super::error::ImageError;
 use super::picture::Image;
+use rayon::prelude::*;
 
 /// A picture and its reduced copies, each in the precision and encoding of the original.
 ///
@@ -31,10 +32,15 @@ impl Pyramid {
             let (width, height) = ((w >> k).max(1), (h >> k).max(1));
             let base = &levels[0];
             let reduced = if k == 1 {
-                // The finest level is read in place: a float copy of it would cost four times an 8-bit picture.
-                reduce(base.width(), base.height(), width, height, channels, |i| base.value(i))
+                // The finest level is read row by row: a float copy of it would cost four times an 8-bit picture.
+                let row = |y: usize, out: &mut [f32]| base.read_row(y as u32, out);
+                reduce(base.width(), base.height(), width, height, channels, row)
             } else {
-                reduce(finer.width, finer.height, width, height, channels, |i| finer.values[i])
+                let length = finer.width as usize * channels;
+                let row = |y: usize, out: &mut [f32]| {
+                    out.copy_from_slice(&finer.values[y * length..(y + 1) * length]);
+                };
+                reduce(finer.width, finer.height, width, height, channels, row)
             };
             finer = Linear { width, height, values: reduced };
             levels.push(levels[0].like(width, height, &finer.values)?);
@@ -72,6 +78,14 @@ struct Span {
     weights: [f32; 3],
 }
 
+impl Span {
+    /// The source texels of which some part is covered, each with its weight.
+    #[inline]
+    fn covered(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+        (self.start..).zip(self.weights).filter(|&(_, weight)| weight > 0.0)
+    }
+}
+
 /// Target texel i of m covers [i·n/m, (i+1)·n/m) of n source texels; n/m ≤ 2 touches at most three.
 fn spans(n: u32, m: u32) -> Vec<Span> {
     let (n, m) = (u64::from(n), u64::from(m));
@@ -90,30 +104,35 @@ fn spans(n: u32, m: u32) -> Vec<Span> {
         .collect()
 }
 
+/// Means over the areas of `width` × `height` texels; `row` writes a row of the source.
 fn reduce(
     src_width: u32,
     src_height: u32,
     width: u32,
     height: u32,
     channels: usize,
-    source: impl Fn(usize) -> f32,
+    row: impl Fn(usize, &mut [f32]) + Sync,
 ) -> Vec<f32> {
-    let columns = spans(src_width, width);
+    let (columns, rows) = (spans(src_width, width), spans(src_height, height));
     let mut out = vec![0.0; width as usize * height as usize * channels];
-    let rows = spans(src_height, height);
-    for (row, target) in rows.iter().zip(out.chunks_exact_mut(width as usize * channels)) {
-        for (dy, wy) in row.weights.into_iter().enumerate().filter(|&(_, w)| w > 0.0) {
-            let line = (row.start + dy) * src_width as usize;
-            for (column, texel) in columns.iter().zip(target.chunks_exact_mut(channels)) {
-                for (dx, wx) in column.weights.into_iter().enumerate().filter(|&(_, w)| w > 0.0) {
-                    let base = (line + column.start + dx) * channels;
-                    for (c, value) in texel.iter_mut().enumerate() {
-                        *value += wy * wx * source(base + c);
-                    }
+    let length = src_width as usize * channels;
+    let scratch = || (vec![0.0; length], vec![0.0; length]);
+    out.par_chunks_exact_mut(width as usize * channels).zip(&rows).for_each_init(
+        scratch,
+        |(line, sum), (target, span)| {
+            sum.fill(0.0);
+            for (dy, weight) in span.covered() {
+                row(dy, line);
+                sum.iter_mut().zip(line.iter()).for_each(|(sum, value)| *sum += weight * value);
+            }
+            for (texel, span) in target.chunks_exact_mut(channels).zip(&columns) {
+                for (dx, weight) in span.covered() {
+                    let source = &sum[dx * channels..(dx + 1) * channels];
+                    texel.iter_mut().zip(source).for_each(|(texel, value)| *texel += weight * value);
                 }
             }
-        }
-    }
+        },
+    );
     out
 }
 
