@@ -18,34 +18,60 @@ const SHAPE: [f32; KNOTS] = [
     0.005, 0.005, 0.005,
 ];
 
-/// ∫ of [`SHAPE`] up to each entry [nm].
-const INTEGRAL: [f32; KNOTS] = {
-    let mut sum = [0.0; KNOTS];
-    let mut i = 1;
-    while i < KNOTS {
-        sum[i] = sum[i - 1] + 0.5 * STEP * (SHAPE[i - 1] + SHAPE[i]);
-        i += 1;
-    }
-    sum
-};
+/// Equal parts of the distribution, within each of which the density is constant: it takes no search and no root to draw.
+const PARTS: usize = 256;
 
-const TOTAL: f32 = INTEGRAL[KNOTS - 1];
-
-/// Equal parts of the distribution.
-const PARTS: usize = 128;
-
-/// The interval of [`SHAPE`] in which each part begins: a part touches few of them.
-static BEGINS: [u8; PARTS] = {
-    let mut begins = [0; PARTS];
-    let (mut part, mut i) = (0, 0);
-    while part < PARTS {
-        while i + 2 < KNOTS && INTEGRAL[i + 1] * PARTS as f32 <= part as f32 * TOTAL {
-            i += 1;
+/// Where the parts begin and end [nm].
+static EDGES: [f32; PARTS + 1] = {
+    let mut edges = [FIRST; PARTS + 1];
+    let total = integral(KNOTS - 1, 0.0);
+    let (mut part, mut knot) = (1, 0);
+    while part <= PARTS {
+        let mass = total * part as f64 / PARTS as f64;
+        while knot + 2 < KNOTS && integral(knot + 1, 0.0) <= mass {
+            knot += 1;
         }
-        begins[part] = i as u8;
+        let (mut low, mut high) = (0.0, STEP as f64);
+        let mut halvings = 0;
+        while halvings < 40 {
+            let middle = 0.5 * (low + high);
+            if integral(knot, middle) <= mass {
+                low = middle;
+            } else {
+                high = middle;
+            }
+            halvings += 1;
+        }
+        edges[part] = (FIRST as f64 + STEP as f64 * knot as f64 + high) as f32;
         part += 1;
     }
-    begins
+    edges
+};
+
+/// ∫ of [`SHAPE`] up to a distance [nm] behind an entry.
+const fn integral(knot: usize, beyond: f64) -> f64 {
+    let mut sum = 0.0;
+    let mut i = 0;
+    while i < knot {
+        sum += 0.5 * STEP as f64 * (SHAPE[i] as f64 + SHAPE[i + 1] as f64);
+        i += 1;
+    }
+    if knot + 1 < KNOTS {
+        let slope = (SHAPE[knot + 1] as f64 - SHAPE[knot] as f64) / STEP as f64;
+        sum += (SHAPE[knot] as f64 + 0.5 * slope * beyond) * beyond;
+    }
+    sum
+}
+
+/// The density within each part [nm⁻¹].
+static DENSITIES: [f32; PARTS] = {
+    let mut densities = [0.0; PARTS];
+    let mut i = 0;
+    while i < PARTS {
+        densities[i] = 1.0 / (PARTS as f32 * (EDGES[i + 1] - EDGES[i]));
+        i += 1;
+    }
+    densities
 };
 
 /// A wavelength [nm] and its density [nm⁻¹].
@@ -58,24 +84,16 @@ pub(super) struct Drawn {
 /// The wavelength below which the share `u` ∈ [0, 1) of the distribution lies.
 #[inline]
 pub(super) fn draw(u: f32) -> Drawn {
-    let mut i = usize::from(BEGINS[((u * PARTS as f32) as usize).min(PARTS - 1)]);
-    let mass = u * TOTAL;
-    while i + 2 < KNOTS && mass >= INTEGRAL[i + 1] {
-        i += 1;
-    }
-    // Within the interval the density p obeys p² = p₀² + 2 p′ m with the mass m since its beginning.
-    let (p0, slope) = (SHAPE[i], (SHAPE[i + 1] - SHAPE[i]) / STEP);
-    let m = (mass - INTEGRAL[i]).max(0.0);
-    let p = (p0 * p0 + 2.0 * slope * m).max(SHAPE[0] * SHAPE[0]).sqrt();
-    let beyond = (2.0 * m / (p0 + p)).min(STEP);
-    Drawn { lambda: FIRST + STEP * i as f32 + beyond, pdf: p / TOTAL }
+    let x = u * PARTS as f32;
+    let i = (x as usize).min(PARTS - 1);
+    let lambda = EDGES[i] + (EDGES[i + 1] - EDGES[i]) * (x - i as f32);
+    Drawn { lambda, pdf: DENSITIES[i] }
 }
 
 /// Density of [`draw`] [nm⁻¹] at a wavelength within the table.
 pub(super) fn density(lambda: f32) -> f32 {
-    let x = (lambda - FIRST) / STEP;
-    let i = (x as usize).min(KNOTS - 2);
-    (SHAPE[i] + (SHAPE[i + 1] - SHAPE[i]) * (x - i as f32)) / TOTAL
+    let behind = EDGES.partition_point(|&edge| edge <= lambda);
+    DENSITIES[behind.clamp(1, PARTS) - 1]
 }
 
 #[cfg(test)]
@@ -83,15 +101,31 @@ mod tests {
     use super::*;
 
     #[test]
+    fn parts_fill_the_range_and_follow_the_shape() {
+        assert_eq!((EDGES[0], EDGES[PARTS]), (360.0, 830.0));
+        let total = integral(KNOTS - 1, 0.0);
+        for (i, edge) in EDGES.windows(2).enumerate() {
+            // The mean of the shape over the part.
+            let at = |lambda: f32| {
+                let x = (lambda - FIRST) / STEP;
+                let knot = (x as usize).min(KNOTS - 2);
+                integral(knot, f64::from((x - knot as f32) * STEP))
+            };
+            let mean = (at(edge[1]) - at(edge[0])) / f64::from(edge[1] - edge[0]) / total;
+            assert!((f64::from(DENSITIES[i]) / mean - 1.0).abs() < 1e-3, "{edge:?}: {} {mean}", DENSITIES[i]);
+        }
+    }
+
+    #[test]
     fn shares_of_the_distribution_lie_below_what_is_drawn() {
         for i in 0..10_000 {
-            let u = i as f32 / 10_000.0;
+            let u = (i as f32 + 0.5) / 10_000.0;
             let Drawn { lambda, pdf } = draw(u);
-            assert!((pdf / density(lambda) - 1.0).abs() < 1e-4, "{u}: {lambda}");
-            let n = 1000;
-            let step = (f64::from(lambda) - 360.0) / f64::from(n);
-            let below: f64 =
-                (0..n).map(|k| f64::from(density((360.0 + (f64::from(k) + 0.5) * step) as f32)) * step).sum();
+            assert_eq!(pdf, density(lambda), "{u}: {lambda}");
+            let below: f64 = EDGES
+                .windows(2)
+                .map(|e| f64::from((lambda.min(e[1]) - e[0]).max(0.0) * density(0.5 * (e[0] + e[1]))))
+                .sum();
             assert!((below - f64::from(u)).abs() < 1e-5, "{u}: {below}");
         }
     }
