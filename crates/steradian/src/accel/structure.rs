@@ -3,9 +3,7 @@
 use super::contract::{Instance, ObjectId};
 use super::kernel::KernelChoice;
 use super::tree::Tree;
-use crate::math::{
-    AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Transform, Vec3, float,
-};
+use crate::math::{AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Vec3, float};
 use glam::{DAffine3, Mat3};
 
 /// A spatial index over shapes and instances that answers ray queries. Built by [`Accel::build`].
@@ -27,14 +25,10 @@ pub(super) struct Placed {
     fixed: Option<DAffine3>,
 }
 
-fn inverse(t: &Transform) -> DAffine3 {
-    DAffine3::from_mat4(t.matrix().as_dmat4()).inverse()
-}
-
 impl Placed {
     pub(super) fn new(instance: &Instance) -> Self {
         let t = &instance.render_from_object;
-        let fixed = (!t.is_animated()).then(|| inverse(t.start()));
+        let fixed = (!t.is_animated()).then(|| t.inverse_at(0.0));
         Self { object: instance.object, render_from_object: t.clone(), fixed }
     }
 
@@ -42,7 +36,7 @@ impl Placed {
     pub(super) fn object_ray(&self, ray: &Ray) -> Ray {
         let m = match self.fixed {
             Some(m) => m,
-            None => inverse(&self.render_from_object.at(ray.time)),
+            None => self.render_from_object.inverse_at(ray.time),
         };
         Ray {
             o: Point(m.transform_point3(ray.o.as_dvec3()).as_vec3()),

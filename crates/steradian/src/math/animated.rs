@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds3;
 use super::transform::Transform;
-use glam::{DMat3, DMat4, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, Mat4};
 
 /// A transform with a start and an end keyframe; between them translation and stretch are linear
 /// and rotation is spherical-linear (Shoemake & Duff 1992, polar decomposition).
@@ -87,12 +87,35 @@ impl AnimatedTransform {
 
     /// The transform at `time`, held at the ends outside the interval.
     pub fn at(&self, time: f32) -> Transform {
-        let Some(keys) = &self.motion else { return self.start };
+        match self.blended(time) {
+            Ok(m) => Transform::from_matrix(m).unwrap_or(self.start),
+            Err(held) => *held,
+        }
+    }
+
+    /// The inverse of [`AnimatedTransform::at`] to the precision of f64, for points and vectors.
+    pub fn inverse_at(&self, time: f32) -> DAffine3 {
+        let inverse = |m: &Mat4| DAffine3::from_mat4(m.as_dmat4()).inverse();
+        match self.blended(time) {
+            Ok(m) => {
+                let found = inverse(&m);
+                let exists = found.matrix3.as_mat3().is_finite() && found.translation.as_vec3().is_finite();
+                if exists { found } else { inverse(self.start.matrix()) }
+            }
+            Err(held) => inverse(held.matrix()),
+        }
+    }
+
+    /// The matrix between the keyframes at `time`, or the keyframe that holds there.
+    ///
+    /// Both keyframes are invertible; a blend that is singular (a mirror passing through zero) shows the start.
+    fn blended(&self, time: f32) -> Result<Mat4, &Transform> {
+        let Some(keys) = &self.motion else { return Err(&self.start) };
         if time <= self.times[0] {
-            return self.start;
+            return Err(&self.start);
         }
         if time >= self.times[1] {
-            return self.end;
+            return Err(&self.end);
         }
         let x = f64::from((time - self.times[0]) / (self.times[1] - self.times[0]));
         let [a, b] = &**keys;
@@ -100,8 +123,7 @@ impl AnimatedTransform {
         let linear = DMat3::from_quat(a.rotation.slerp(b.rotation, x)) * stretch;
         let mut m = DMat4::from_mat3(linear);
         m.w_axis = a.translation.lerp(b.translation, x).extend(1.0);
-        // Both keyframes are invertible; a blend that is singular (a mirror passing through zero) shows the start.
-        Transform::from_matrix(m.as_mat4()).unwrap_or(self.start)
+        Ok(m.as_mat4())
     }
 
     /// What `f` makes of the transform at `time`; one that does not move is not copied.
@@ -153,6 +175,17 @@ mod tests {
         assert_eq!(a.at(-1.0), *a.start());
         assert_eq!(a.at(0.0), *a.start());
         assert_eq!(a.at(5.0), *a.end());
+    }
+
+    #[test]
+    fn the_inverse_undoes_the_transform_at_every_time() {
+        let a = spin();
+        for i in -10..=210 {
+            let time = i as f32 * 0.01;
+            let p = Point::new(0.3, -1.2, 2.5);
+            let back = a.inverse_at(time).transform_point3(a.at(time).point(p).as_dvec3());
+            assert!((back - p.as_dvec3()).length() < 1e-5, "{time}: {back}");
+        }
     }
 
     #[test]
