@@ -19,7 +19,7 @@ use std::f32::consts::PI;
 use std::marker::PhantomData;
 
 /// Bounces that no path is denied by roulette. Ending paths after the first one already costs more in noise than it saves in
-/// time: at equal time the error of eight scenes was 1.04 to 1.8 times as large; five bounces are hardly better than three.
+/// time: at equal time the error of seven scenes was 1.04 to 1.8 times as large; five bounces are hardly better than three.
 const WHOLE_BOUNCES: u32 = 3;
 
 /// The path tracer.
