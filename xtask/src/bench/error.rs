@@ -7,16 +7,12 @@ use super::scenes::{self, Kind};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
-use steradian::image::{Frame, read_frame_exr};
+use steradian::image::{Frame, Outliers, compare, read_frame_exr};
 
 const SECTION: &str = "Error: time to equal error against the baseline";
 
 /// "First light": the state that later speed work is measured against.
 const BASELINE: &str = "41618a2bd350";
-
-/// Share of the pixels, those with the largest errors, that is left out: a handful of fireflies would decide about the
-/// ratio otherwise.
-const TRIMMED: f64 = 0.001;
 
 /// Samples per pixel of the compared pictures: small beside those of the references, whose own noise counts against both.
 const SPP: u32 = 64;
@@ -149,26 +145,9 @@ fn render(
         (Ok(before), Ok(after)) => after - before,
         _ => elapsed,
     };
-    Ok(Run { elapsed, processor, rel_mse: rel_mse(&read(picture)?, reference)? })
-}
-
-/// Mean over pixels and channels of (x − r)²/(r² + (0.01 · mean r)²), but for the pixels that are [`TRIMMED`].
-fn rel_mse(image: &Frame, reference: &Frame) -> Result<f64, String> {
-    let (x, r) = (image.rgb().map_err(|e| e.to_string())?, reference.rgb().map_err(|e| e.to_string())?);
-    if x.len() != r.len() {
-        return Err("a picture is not of its reference's size".to_owned());
-    }
-    let n = r.len();
-    let mean = (0..n).flat_map(|i| r.pixel(i)).map(f64::from).sum::<f64>() / (3 * n) as f64;
-    let relative = |(x, r): (f32, f32)| {
-        let (x, r) = (f64::from(x), f64::from(r));
-        (x - r).powi(2) / (r * r + (0.01 * mean).powi(2)) / 3.0
-    };
-    let mut errors: Vec<f64> =
-        (0..n).map(|i| x.pixel(i).into_iter().zip(r.pixel(i)).map(relative).sum()).collect();
-    errors.sort_by(f64::total_cmp);
-    let kept = n - (n as f64 * TRIMMED) as usize;
-    Ok(errors[..kept].iter().sum::<f64>() / kept as f64)
+    // Trimmed: a handful of fireflies would decide about the ratio otherwise.
+    let compared = compare(&read(picture)?, reference, Outliers::Keep).map_err(|e| e.to_string())?;
+    Ok(Run { elapsed, processor, rel_mse: compared.rel_mse_trimmed })
 }
 
 fn start(program: &Path, subject: &Subject, spp: u32, seed: usize, picture: &Path) -> Result<(), String> {
@@ -213,26 +192,4 @@ fn build_baseline(root: &Path) -> Result<PathBuf, String> {
         .env_remove("CARGO_TARGET_DIR")
         .current_dir(&folder))?;
     Ok(program)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use steradian::color::ColorSpaceKind;
-
-    #[test]
-    fn errors_are_relative_and_one_pixel_in_a_thousand_does_not_count() {
-        let frame = |at: &dyn Fn(usize) -> f32| {
-            Frame::from_rgb([40, 25], ColorSpaceKind::Srgb, |i| [at(i); 3]).unwrap()
-        };
-        let reference = frame(&|_| 2.0);
-        let image = frame(&|i| if i == 7 { 1e6 } else { 2.2 });
-        // (0.2/2)² over 1 + 0.01².
-        let expected = 0.01 / 1.0001;
-        let error = rel_mse(&image, &reference).unwrap();
-        assert!((error / expected - 1.0).abs() < 1e-5, "{error}");
-        // Of two such pixels one counts.
-        let worse = rel_mse(&frame(&|i| if i < 2 { 1e3 } else { 2.2 }), &reference).unwrap();
-        assert!(worse > 100.0, "{worse}");
-    }
 }

@@ -68,8 +68,8 @@ pub(super) trait Kernel: Copy {
 
 /// Bound on the rounding of [`Kernel::triangles`]'s U + V + W, per product of the largest |sheared x or y| and its sum with
 /// the largest |z|: of each sheared coordinate 8 ε of that sum, of each edge function 4·8 and 3·2 of the product, 114 for
-/// three of them, and 2 for their sum. It is doubled, so that what lies beyond it leaves no doubt to the exact test either.
-/// Times the largest |z| it bounds the rounding of Σ U z, too: that adds 4 for each product and for the sum.
+/// three of them, and 2 for their sum. Times the largest |z| it bounds the rounding of Σ U z, too: 114, 4 for each product,
+/// and 12 for their sum. Both are rounded up to 256, so that what lies beyond leaves no doubt to the exact test either.
 const AREA_ERROR: f32 = 256.0 * float::MACHINE_EPSILON;
 
 /// The kernel that this processor runs, found once when the structure is built.

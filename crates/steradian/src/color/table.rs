@@ -72,7 +72,7 @@ impl Axis {
 }
 
 impl UpsamplingTable {
-    /// Fits the table of a colour space on all cores; about a tenth of a second on one for sRGB.
+    /// Fits the table of a colour space on all cores; some 0.15 s on one for sRGB.
     pub fn build(space: &ColorSpace) -> Self {
         let magnitudes: [f32; N] = std::array::from_fn(|i| {
             let s = smoothstep(unit(i));

@@ -25,6 +25,8 @@ pub struct Comparison {
     pub mse: f64,
     /// Mean of (x − r)²/(r² + ε) with ε = (0.01 · mean r)²: scaling both pictures changes nothing.
     pub rel_mse: f64,
+    /// The same without the thousandth of the pixels, rounded down, whose differences are the largest.
+    pub rel_mse_trimmed: f64,
     /// 95th percentile over 16 × 16 blocks and channels of |x̄ − r̄|/(r̄ + 0.02 · mean r), the relative difference
     /// of the block's means: noise averages out, a fault of one region does not.
     pub block_95: f64,
@@ -35,6 +37,9 @@ pub struct Comparison {
     /// Pixels in all.
     pub pixels: usize,
 }
+
+/// Share of the pixels that [`Comparison::rel_mse_trimmed`] leaves out.
+const TRIMMED: f64 = 0.001;
 
 /// Blocks along each side.
 const BLOCKS: usize = 16;
@@ -74,16 +79,21 @@ pub fn compare(image: &Frame, reference: &Frame, outliers: Outliers) -> Result<C
     let n = sums.n.max(1.0);
     let mean = sums.reference.iter().sum::<f64>() / (3.0 * n);
     let epsilon = (0.01 * mean).powi(2);
-    let mut relative = 0.0;
+    let mut relative = Vec::with_capacity(x.len());
     for i in 0..x.len() {
         let (a, b) = (x.pixel(i), r.pixel(i));
         if a.iter().chain(&b).all(|v| v.is_finite()) {
-            for c in 0..3 {
+            let of_channel = |c: usize| {
                 let (a, b) = (f64::from(a[c].min(limit)), f64::from(b[c].min(limit)));
-                relative += ratio((a - b) * (a - b), b * b + epsilon);
-            }
+                ratio((a - b) * (a - b), b * b + epsilon)
+            };
+            relative.push((of_channel(0) + of_channel(1) + of_channel(2)) / 3.0);
         }
     }
+    let rel_mse = relative.iter().sum::<f64>() / n;
+    relative.sort_by(f64::total_cmp);
+    let kept = &relative[..relative.len() - (relative.len() as f64 * TRIMMED) as usize];
+    let rel_mse_trimmed = kept.iter().sum::<f64>() / kept.len().max(1) as f64;
     let mut differences: Vec<f64> = blocks
         .iter()
         .filter(|b| b.n > 0.0)
@@ -102,7 +112,8 @@ pub fn compare(image: &Frame, reference: &Frame, outliers: Outliers) -> Result<C
         mean_ratio,
         mae: sums.absolute / (3.0 * n),
         mse: sums.squared / (3.0 * n),
-        rel_mse: relative / (3.0 * n),
+        rel_mse,
+        rel_mse_trimmed,
         block_95: at(0.95).unwrap_or(0.0),
         block_worst: at(1.0).unwrap_or(0.0),
         non_finite: x.len() - sums.n as usize,
@@ -189,6 +200,22 @@ mod tests {
         let relative = (0.01 / (1.0 + epsilon) + 1.0 / (16.0 + epsilon)) / 3.0;
         assert!((c.rel_mse - relative).abs() < 1e-6);
         assert!((c.block_worst - 1.0 / (4.0 + 0.02 * 7.0 / 3.0)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn one_pixel_in_a_thousand_is_trimmed() {
+        let frame = |at: &dyn Fn(usize) -> f32| {
+            Frame::from_rgb([40, 25], ColorSpaceKind::Srgb, |i| [at(i); 3]).unwrap()
+        };
+        let trimmed = |bright: usize| {
+            let image = frame(&|i| if i < bright { 1e3 } else { 2.2 });
+            compare(&image, &frame(&|_| 2.0), Outliers::Keep).unwrap().rel_mse_trimmed
+        };
+        // (0.2/2)² over 1 + 0.01².
+        let expected = 0.01 / 1.0001;
+        assert!((trimmed(1) / expected - 1.0).abs() < 1e-5, "{}", trimmed(1));
+        // Of two such pixels one counts.
+        assert!(trimmed(2) > 100.0, "{}", trimmed(2));
     }
 
     #[test]

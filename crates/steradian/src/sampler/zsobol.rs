@@ -93,7 +93,7 @@ impl ZSobol {
 }
 
 /// A word of which each bit depends on the bits of `x` up to it, and on the highest of them as it is: carries run upwards
-/// only (Laine & Karras 2011, section 3.2). `even` is even, `odd` is odd.
+/// only (Laine & Karras 2011). `even` is even, `odd` is odd.
 #[inline(always)]
 const fn depending_on_digits_above(x: u64, even: u64, odd: u64) -> u64 {
     (x ^ x.wrapping_mul(even)).wrapping_mul(odd)

@@ -124,6 +124,23 @@ fn every_triangle_lies_in_one_leaf_whatever_the_triangles() {
 }
 
 #[test]
+fn the_walls_of_a_room_lie_in_leaves_of_their_own() {
+    // Two triangles for each face of a cube: six leaves, where three packets would hold all.
+    let walls = soup(12, |i| {
+        let (axis, at) = (i as usize / 4, (i / 2 % 2) as f32);
+        let corner = |u: f32, v: f32| {
+            let mut p = Vec3::splat(at);
+            (p[(axis + 1) % 3], p[(axis + 2) % 3]) = (u, v);
+            p
+        };
+        [corner(0.0, 0.0), corner(1.0, 1.0), if i % 2 == 0 { corner(1.0, 0.0) } else { corner(0.0, 1.0) }]
+    });
+    let tree = assert_holds_all(&[walls]);
+    assert_eq!((tree.nodes.len(), tree.packets.len()), (1, 6));
+    assert!(tree.packets.iter().all(|p| p.used_lanes() == 2));
+}
+
+#[test]
 fn nothing_makes_an_empty_tree() {
     let tree = tree_of(&[]);
     assert_eq!((tree.nodes.len(), tree.packets.len(), tree.bounds), (1, 0, None));
