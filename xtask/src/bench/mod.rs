@@ -4,8 +4,10 @@ mod build;
 mod embree;
 mod error;
 pub(crate) mod job;
+mod noise;
 mod options;
 mod parse;
+mod pictures;
 mod rays;
 mod report;
 pub(crate) mod row;
@@ -28,6 +30,7 @@ const SECTIONS: &[Section] = &[
     ("parse", parse::measure),
     ("samples", samples::measure),
     ("error", error::measure),
+    ("noise", noise::measure),
     ("scaling", scaling::measure),
 ];
 
