@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::math::hash::Pcg32;
-use crate::math::{Point, Transform, Vec2, Vec3, warp};
+use crate::math::{AnimatedTransform, Point, Transform, Vec2, Vec3, warp};
 use crate::shape::curve::{Basis, Degree, Profile};
 use crate::shape::{Curve, CurveData, MeshData, Orientation, ShapeId, TriangleMesh};
 
@@ -85,7 +85,8 @@ fn triangles(rng: &mut Pcg32, count: usize) -> Vec<[Vec3; 3]> {
 fn both_paths_meet_the_same_primitive_at_the_same_place_on_adversarial_input() {
     let mut rng = Pcg32::new(21, 4);
     let mut met = 0;
-    for scale in [1e-18_f32, 1e-9, 1.0, 1e9, 1e18] {
+    // From where areas vanish to where they are infinite.
+    for scale in [1e-36_f32, 1e-27, 1e-18, 1e-9, 1.0, 1e9, 1e18, 1e21, 1e28, 1e36] {
         let plain = triangles(&mut rng, 150);
         let shape = mesh(&plain.iter().map(|t| t.map(|p| p * scale)).collect::<Vec<_>>());
         let shapes = [shape];
@@ -240,4 +241,149 @@ fn no_ray_escapes_from_a_ball_at_the_ends_of_the_range_of_floats() {
             }
         }
     }
+}
+
+#[test]
+fn rays_that_start_in_or_next_to_the_plane_of_a_triangle_are_answered_alike() {
+    let mut rng = Pcg32::new(22, 1);
+    let mut met = 0;
+    for scale in [1e-9_f32, 1.0, 1e9] {
+        // Whole numbers: a corner and multiples of 1/32 of two edges are in the plane without rounding.
+        let mut whole =
+            |n: u32| Vec3::from_array([0; 3].map(|_| (rng.next_u32() % (2 * n)) as f32 - n as f32));
+        let scale = 2.0_f32.powi(scale.log2() as i32);
+        let origins: Vec<[Vec3; 3]> =
+            (0..40).map(|_| [whole(1 << 22), whole(1 << 17), whole(1 << 17)].map(|p| p * scale)).collect();
+        let shapes =
+            [mesh(&origins.iter().map(|[a, e, f]| [*a, a + e * 32.0, a + f * 32.0]).collect::<Vec<_>>())];
+        let accels = accels(&shapes);
+        for i in 0..4000_usize {
+            let k = i % origins.len();
+            let [a, e, f] = origins[k];
+            let inside = [0; 2].map(|_| (1 + rng.next_u32() % 15) as f32);
+            let mut o = a + e * inside[0] + f * inside[1];
+            let mut d = warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+            if i % 3 == 0 {
+                // Grazing.
+                d = (e * (rng.next_f32() - 0.5) + f * (rng.next_f32() - 0.5)).normalize() + d * 1e-4;
+            }
+            let steps = i / 3 % 4;
+            for _ in 0..steps {
+                o[i % 3] = if i % 2 == 0 { o[i % 3].next_up() } else { o[i % 3].next_down() };
+            }
+            let ray = Ray { o: Point(o), d, time: 0.0 };
+            if steps == 0 {
+                let own = shapes[0].primitive(k as u32).intersect(&ray, f32::INFINITY);
+                assert_eq!(own, None, "{ray:?}");
+            }
+            met += u32::from(all_agree(&accels, &shapes[0], &ray, f32::INFINITY));
+            // Where it is met, if at all, next to the origin.
+            all_agree(&accels, &shapes[0], &ray, 0.1 * e.length());
+        }
+    }
+    assert!(met > 1500, "{met}");
+}
+
+/// At the rims of boxes far from the origin, on rays that hardly move along one axis: there the rounding of the box counts,
+/// and not that of the ray.
+#[test]
+fn curves_far_from_the_origin_are_met_up_to_their_edges() {
+    let mut rng = Pcg32::new(18, 7);
+    let mut met = 0;
+    for far in [100.0_f32, 1e4] {
+        // Straight pieces along the axes in turn.
+        let corners: Vec<Vec3> = (0..40_usize)
+            .scan(Vec3::new(far, -0.9 * far, 0.7 * far), |p, k| {
+                p[k % 3] += far * 1e-3 * (1.0 + rng.next_f32());
+                Some(*p)
+            })
+            .collect();
+        let points =
+            corners.windows(2).flat_map(|c| [c[0], c[0].lerp(c[1], 1.0 / 3.0), c[0].lerp(c[1], 2.0 / 3.0)]);
+        let width = 1e-4 * far;
+        let data = CurveData {
+            points: points.chain(corners.last().copied()).map(Point).collect(),
+            basis: Basis::Bezier,
+            degree: Degree::Cubic,
+            profile: Profile::Flat,
+            normals: vec![],
+            widths: [width; 2],
+            split_depth: 1,
+        };
+        let shapes = [Shape::Curve(Curve::new(data, &Transform::IDENTITY, Orientation::AsDefined).unwrap())];
+        let accels = accels(&shapes);
+        for i in 0..3000 {
+            let k = rng.next_u32() as usize % 39;
+            let (along, across, axis) = match i % 2 {
+                0 => ((k + 1) % 3, (k + 2) % 3, (k + 3) % 3),
+                _ => ((k + 1) % 3, (k + 3) % 3, (k + 2) % 3),
+            };
+            let mut target = corners[k].lerp(corners[k + 1], rng.next_f32());
+            let mut d = Vec3::ZERO;
+            d[axis] = 1.0 - 2.0 * (i / 2 % 2) as f32;
+            d[across] = 2e-3 * (rng.next_f32() - 0.5);
+            target[across] +=
+                width * (0.5 + 4e-3 * (rng.next_f32() - 0.5)) * (1.0 - 2.0 * (i / 4 % 2) as f32);
+            debug_assert_ne!(along, across);
+            let ray = Ray { o: Point(target - d * (0.1 * far)), d, time: 0.0 };
+            met += u32::from(all_agree(&accels, &shapes[0], &ray, f32::INFINITY));
+        }
+    }
+    assert!((1500..4500).contains(&met), "{met}");
+}
+
+#[test]
+fn an_instance_is_met_wherever_its_object_is_up_to_the_rim_of_its_box() {
+    let mut rng = Pcg32::new(19, 3);
+    let mut met = 0;
+    for case in 0..300 {
+        let mut unit = || warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+        // A square that is far from the origin of the world, or from its own and taken back.
+        let (away, back) = [(0.0, 1e4), (1e4, 1.0), (1.0, 1.0)][case / 3 % 3];
+        // In the plane of two axes, so that its own box is no larger.
+        let (middle, x, y) = (unit() * away, Vec3::AXES[case % 3], Vec3::AXES[(case + 1) % 3]);
+        let square =
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[a, b]| middle + x * a + y * b);
+        let [a, b, c, d] = square;
+        let shapes = [mesh(&[[a, b, c], [a, c, d]])];
+        let turned = Transform::rotate(360.0 * unit().x, unit()).unwrap();
+        let t = Transform::translate(unit() * back - *turned.point(Point(middle))) * turned;
+        // Another one, so that there are boxes to test.
+        let beyond = Transform::translate(unit() * 1e6);
+        let instances = [t, beyond]
+            .map(|t| Instance { object: ObjectId(0), render_from_object: AnimatedTransform::fixed(t) });
+        let layout =
+            Layout { objects: vec![vec![ShapeId(0)]], instances: instances.to_vec(), ..Layout::default() };
+        let accel = Accel::build(&shapes, &layout).unwrap();
+        let portable = accel.clone().portable();
+        let object = Accel::build(&shapes, &Layout::of_world(1)).unwrap();
+        for i in 0..60 {
+            let axis = i % 3;
+            // The corner that goes farthest along the axis.
+            let sign = 1.0 - 2.0 * (i / 3 % 2) as f32;
+            let corners = square.map(|p| t.point(Point(p)));
+            let Some(corner) =
+                corners.into_iter().max_by(|p, q| (p[axis] * sign).total_cmp(&(q[axis] * sign)))
+            else {
+                continue;
+            };
+            let rounding = (away + back) * 1e-7;
+            let mut d = unit();
+            d[axis] *= 1e-4;
+            let mut o = *corner - d;
+            o[axis] += rounding * 6.0 * unit().x;
+            let ray = Ray { o: Point(o), d, time: 0.0 };
+            let expected = object.intersect(&accel.instances[0].object_ray(&ray), f32::INFINITY, &OPAQUE);
+            for accel in [&accel, &portable] {
+                let h = accel.intersect(&ray, f32::INFINITY, &OPAQUE);
+                assert_eq!(
+                    h.map(|h| (h.t, h.prim)),
+                    expected.map(|h| (h.t, h.prim)),
+                    "case {case}: {ray:?} {square:?} {t:?}"
+                );
+            }
+            met += u32::from(expected.is_some());
+        }
+    }
+    assert!(met > 1000, "{met}");
 }

@@ -3,7 +3,9 @@
 use super::contract::{Instance, ObjectId};
 use super::kernel::KernelChoice;
 use super::tree::Tree;
-use crate::math::{AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Vec3, float};
+use crate::math::{
+    AnimatedTransform, BoundedPoint, Bounds3, Point, Ray, Shading, SurfacePoint, Transform, Vec3, float,
+};
 use glam::{DAffine3, Mat3};
 
 /// A spatial index over shapes and instances that answers ray queries. Built by [`Accel::build`].
@@ -49,8 +51,15 @@ impl Placed {
     pub(super) fn bounds(&self, object: &Bounds3) -> Bounds3 {
         let b = self.render_from_object.motion_bounds(object);
         let reach = b.min.abs().max(b.max.abs()).max_element();
-        // 16 roundings of numbers no larger than the sum of extent and reach.
-        b.expand((reach + b.diagonal().max_element()) * float::gamma(16))
+        // What the corners are sums of, which cancel where an object far from its own origin is taken back.
+        let corner = object.min.abs().max(object.max.abs());
+        let terms = |t: &Transform| {
+            let m = t.matrix();
+            (Mat3::from_mat4(*m).abs() * corner + m.w_axis.truncate().abs()).max_element()
+        };
+        let terms = terms(self.render_from_object.start()).max(terms(self.render_from_object.end()));
+        // 16 roundings of numbers no larger than the sum of extent and reach, or than those.
+        b.expand((reach + b.diagonal().max_element()).max(terms) * float::gamma(16))
     }
 
     /// An object-space surface point in render space.
