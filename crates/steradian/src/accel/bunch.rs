@@ -211,4 +211,47 @@ mod tests {
         assert_eq!(near(center, 5.0, 4.0), [0; 4], "beyond the end");
         assert_eq!(near(center, 5.0, 5.1), [0, 1, 0, 0]);
     }
+
+    /// Straight curves of two units, which lie around the origin, where their own numbers hardly round, or far from it; the ray
+    /// ends where it meets them.
+    #[test]
+    fn rounding_leaves_out_no_part_whose_end_or_edge_a_ray_meets_from_afar() {
+        let mut rng = Pcg32::new(14, 9);
+        let mut count = 0;
+        for case in 0..40_000 {
+            let mut direction = || warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+            let (d, away) = (direction(), direction());
+            // Along the ray, across, and askew.
+            let chord = [d, d.cross(away).normalize_or_zero(), direction()][case % 3];
+            let edge = d.cross(chord).normalize_or_zero();
+            let far = 10.0_f32.powf(8.0 * rng.next_f32());
+            // Of any width, or such that rounding counts.
+            let width = match case / 3 % 2 {
+                0 => 10.0_f32.powf(-7.0 * rng.next_f32()),
+                _ => far * f32::EPSILON * 10.0_f32.powf(3.0 * rng.next_f32() - 1.0),
+            };
+            let place = [1.0, -1.0, 2.0 * rng.next_f32() - 1.0][case / 6 % 3];
+            let side = [0.0, 0.5, -0.5][case / 18 % 3];
+            // Also where products leave the range of floats.
+            let (scale, length) = match case % 5 {
+                0 => (3.4e19 * (1.0 + 0.01 * rng.next_f32()) / far, 1e19),
+                _ => (1.0, 1.0),
+            };
+            let (away, from) = if case % 4 == 1 { (away * far, 3.0) } else { (Vec3::ZERO, far) };
+            let points = [-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0].map(|x| (away + chord * x) * scale);
+            let (bunch, parts) = bunch(points, [width * scale; 2]);
+            let target = away + chord * place + edge * (side * width);
+            let ray = Ray { o: Point((target - d * from) * scale), d: d * length, time: 0.0 };
+            for (lane, part) in (0..).zip(&parts) {
+                let Some(h) = part.intersect(&ray, f32::INFINITY) else { continue };
+                count += 1;
+                assert_eq!(part.intersect(&ray, h.t), Some(h), "case {case}: {ray:?} {points:?} {width}");
+                for t_max in [h.t, h.t.next_up(), f32::INFINITY] {
+                    let near = bunch.near(&ray, t_max).any(|l| l == lane);
+                    assert!(near, "case {case}: {ray:?} {t_max} {points:?} {width}");
+                }
+            }
+        }
+        assert!(count > 8000, "{count}");
+    }
 }

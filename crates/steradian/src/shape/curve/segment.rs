@@ -75,9 +75,11 @@ struct Search {
 
 impl Search {
     /// Nothing beyond `t_max` is of interest, but what is as far away: which of equally near hits wins is not decided here.
+    ///
+    /// Between the hull of a part and the product are nine roundings of a point on the curve and three of its distance.
     fn limit(&mut self, t_max: f32) {
         self.t_max = t_max;
-        self.z_max = t_max * self.length * (1.0 + gamma(4));
+        self.z_max = t_max * self.length * (1.0 + gamma(14));
     }
 }
 
