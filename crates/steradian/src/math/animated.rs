@@ -216,4 +216,26 @@ mod tests {
         let h = std::f32::consts::FRAC_1_SQRT_2;
         assert!((*p - Vec3::new(h, h, 0.0)).length() < 1e-6, "{p:?}");
     }
+
+    #[test]
+    fn what_is_seen_through_a_placement_is_seen_at_its_time() {
+        let a = spin();
+        for time in [-1.0, 0.0, 0.3, 1.0, 1.9, 2.0, 3.0] {
+            assert_eq!(a.through(time, |t| *t), a.at(time), "{time}");
+        }
+        let still = AnimatedTransform::fixed(*a.end());
+        assert_eq!(still.through(0.5, |t| *t), *a.end());
+    }
+
+    #[test]
+    fn a_placement_that_shrinks_to_nothing_shows_its_start_there_both_ways() {
+        // A mirror in a plane is one in the origin and half a turn about its normal: halfway nothing has any extent.
+        let start = Transform::translate(Vec3::new(0.0, 2.0, 0.0));
+        let mirror = start * Transform::scale(Vec3::new(-1.0, 1.0, 1.0)).unwrap();
+        let a = AnimatedTransform::new(start, mirror, [0.0, 1.0]);
+        assert_eq!(a.at(0.5), start);
+        let p = Point::new(0.3, -1.2, 2.5);
+        let back = a.inverse_at(0.5).transform_point3(start.point(p).as_dvec3());
+        assert!((back - p.as_dvec3()).length() < 1e-6, "{back}");
+    }
 }

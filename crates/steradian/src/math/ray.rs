@@ -68,3 +68,26 @@ impl BoundedPoint {
         Ray { o, d: target - o, time }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::hash::Pcg32;
+    use crate::math::{Vec2, warp};
+
+    #[test]
+    fn rays_start_beyond_the_plane_through_any_point_of_the_box_of_errors() {
+        let mut rng = Pcg32::new(16, 2);
+        for case in 0..10_000 {
+            let mut unit = || warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+            let (n, w, p) = (Normal::new_unchecked(unit()), unit(), unit() * 10.0_f32.powi(case % 21 - 10));
+            let error = unit().abs() * p.length() * [0.0, 1e-7, 1e-3][case as usize % 3];
+            let o = BoundedPoint { p: Point(p), error }.offset_origin(n, w);
+            // The corner of the box that lies farthest on the side of the ray.
+            let side = f64::from(w.dot(*n)).signum();
+            let (n, o) = (n.as_dvec3() * side, o.as_dvec3());
+            let corner = p.as_dvec3() + error.as_dvec3() * n.signum();
+            assert!((o - corner).dot(n) > 0.0, "{p} {error} {n}: {o}");
+        }
+    }
+}

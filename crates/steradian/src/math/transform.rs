@@ -250,4 +250,25 @@ mod tests {
         let tangent = Vec3::new(2.0, -1.0, 0.0);
         assert!(t.normal(n).unwrap().dot(t.vector(tangent)).abs() < 1e-5);
     }
+
+    #[test]
+    fn transformed_points_are_within_their_error() {
+        let mut rng = crate::math::hash::Pcg32::new(17, 4);
+        for case in 0..10_000 {
+            let mut place = || Vec3::from_array([0; 3].map(|_| rng.next_f32() - 0.5));
+            let t = Transform::translate(place() * [0.0, 1.0, 1e4][case % 3])
+                * Transform::rotate(360.0 * place().x, place()).unwrap()
+                * Transform::scale(place().abs() + 0.1).unwrap();
+            let (p, error) = (place(), place().abs() * [0.0, 1e-6][case % 2]);
+            let b = t.bounded_point(&BoundedPoint { p: Point(p), error });
+            // Where the true point may be, at the corner of its box that goes farthest along each axis.
+            let m = t.matrix().as_dmat4();
+            for axis in 0..3 {
+                let row = m.row(axis).truncate();
+                let p = row.dot(p.as_dvec3() + error.as_dvec3() * row.signum()) + m.w_axis[axis];
+                let lost = (p - f64::from(b.p[axis])).abs();
+                assert!(lost <= f64::from(b.error[axis]), "{lost} {}", b.error);
+            }
+        }
+    }
 }

@@ -307,4 +307,38 @@ mod tests {
         let ribbon = CurveData { profile: Profile::Ribbon, ..data(4, 1.0) };
         assert_eq!(new(ribbon), Err(ShapeError::WrongLength { what: "N", found: 0, expected: 2 }));
     }
+
+    #[test]
+    fn a_capsule_holds_the_whole_curve_and_is_as_wide_as_its_bulge() {
+        let mut rng = Pcg32::new(20, 6);
+        let mut coordinate = || rng.next_f32() * 2.0 - 1.0;
+        for case in 0..500 {
+            let mut points = [0; 4].map(|_| Vec3::new(coordinate(), coordinate(), coordinate()));
+            if case % 2 == 0 {
+                // Both inner points to the same side of the thirds: the middle follows by exactly three quarters.
+                let ([a, b, _, d], third) = (points, (points[3] - points[0]) / 3.0);
+                let bulge = (b - a).cross(d - a);
+                (points[1], points[2]) = (a + third + bulge, d - third + bulge);
+            }
+            let data = CurveData {
+                points: points.map(Point).to_vec(),
+                basis: Basis::Bezier,
+                degree: Degree::Cubic,
+                profile: Profile::Flat,
+                normals: vec![],
+                widths: [0.1, 0.2],
+                split_depth: 0,
+            };
+            let c = Curve::new(data, &Transform::IDENTITY, Orientation::AsDefined).unwrap();
+            let capsule = c.segment(0).capsule();
+            let (along, mut most) = (capsule.chord.normalize(), 0.0_f32);
+            for i in 0..=64 {
+                let from_middle = c.pieces[0].bezier.point(i as f32 / 64.0) - *capsule.middle;
+                let aside = from_middle.reject_from_normalized(along).length() + 0.1;
+                most = most.max(aside);
+                assert!(aside <= capsule.reach && from_middle.length() + 0.1 <= capsule.radius, "{points:?}");
+            }
+            assert!(case % 2 != 0 || capsule.reach < most * (1.0 + 1e-5), "{points:?}: {most} {capsule:?}");
+        }
+    }
 }

@@ -216,3 +216,35 @@ pub(super) fn finite(name: &'static str, value: f32) -> Result<f64, ShapeError> 
         Err(ShapeError::Parameter { name, value, rule: "finite" })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::hash::Pcg32;
+    use crate::math::warp;
+
+    #[test]
+    fn the_box_of_an_ellipsoid_reaches_its_farthest_points_on_every_side() {
+        let mut rng = Pcg32::new(3, 14);
+        for _ in 0..1000 {
+            let mut place = || warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+            let t = Transform::translate(place() * 30.0)
+                * Transform::rotate(200.0 * place().x, place()).unwrap()
+                * Transform::scale(place().abs() + 0.1).unwrap();
+            let placement = Placement::new(&t, Orientation::AsDefined).unwrap();
+            let (center, half) = (place().as_dvec3(), place().abs().as_dvec3());
+            let b = placement.ellipsoid_bounds(center, half);
+            for axis in 0..3 {
+                // The point of the unit sphere that goes farthest along the axis.
+                let along = (placement.render_from_object.matrix3.row(axis) * half).normalize();
+                let reach = |p: DVec3| placement.render_point(center + half * p)[axis];
+                assert!(f64::from(b.max[axis]) >= reach(along) && f64::from(b.min[axis]) <= reach(-along));
+                // And no more than two roundings beyond.
+                let slack = f64::from(b.max[axis].abs().max(b.min[axis].abs()) * 2.0 * f32::EPSILON);
+                let (hi, lo) =
+                    (f64::from(b.max[axis]) - reach(along), reach(-along) - f64::from(b.min[axis]));
+                assert!(hi <= slack && lo <= slack, "{hi} {lo} {slack}");
+            }
+        }
+    }
+}

@@ -30,3 +30,21 @@ pub(super) fn normalized(v: DVec3) -> Option<Normal> {
 fn normalized_far_out(v: DVec3) -> Option<Normal> {
     Some(Normal::new_unchecked(v.try_normalize()?.as_vec3()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::hash::Pcg32;
+
+    #[test]
+    fn what_storing_a_point_loses_is_within_its_error() {
+        let mut rng = Pcg32::new(15, 9);
+        for _ in 0..10_000 {
+            let p = DVec3::from_array([0; 3].map(|_| f64::from(rng.next_f32() - 0.5) * (1.0 + 1e-9)));
+            let p = p * 10.0_f64.powi(rng.next_u32() as i32 % 20 - 10);
+            let b = bounded(p, p.abs().as_vec3());
+            let lost = (b.p.as_dvec3() - p).abs();
+            assert!(lost.cmple(b.error.as_dvec3()).all(), "{p}: {lost} {}", b.error);
+        }
+    }
+}

@@ -203,7 +203,8 @@ fn edge(p: [f32; 2], q: [f32; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Vec3;
+    use crate::math::hash::Pcg32;
+    use crate::math::{Vec2, Vec3, warp};
 
     fn hit(v: [Point; 3], o: Vec3, d: Vec3) -> Option<PrimHit> {
         Shear::new(&Ray { o: Point(o), d, time: 0.0 }).intersect(v, f32::INFINITY)
@@ -255,6 +256,39 @@ mod tests {
             for o in [Vec3::new(0.3, 0.2, 1.0), Vec3::new(-7.0, 3.0, 1e-3), Vec3::new(2.0, 9.0, -1e4)] {
                 let d = target - o;
                 assert!(hit(TRIANGLE, o, d).is_some() || hit(other, o, d).is_some(), "{x} {o}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ray_from_a_point_exactly_in_the_plane_of_a_triangle_misses_it() {
+        let mut rng = Pcg32::new(12, 5);
+        for case in 0..4000 {
+            // Whole numbers: the origin is a corner plus multiples of 1/32 of two edges, inside and without rounding.
+            let mut whole =
+                |n: u32| Vec3::from_array([0; 3].map(|_| (rng.next_u32() % (2 * n)) as f32 - n as f32));
+            let (a, e1, e2) = (whole(1 << 22), whole(1 << 17), whole(1 << 17));
+            let (i, j) = (1 + rng.next_u32() % 15, 1 + rng.next_u32() % 15);
+            let o = a + e1 * i as f32 + e2 * j as f32;
+            let d = warp::uniform_sphere(Vec2::new(rng.next_f32(), rng.next_f32()));
+            let scale = [1.0, 2.0_f32.powi(-60), 2.0_f32.powi(60)][case % 3];
+            let v = [a, a + e1 * 32.0, a + e2 * 32.0].map(|p| Point(p * scale));
+            assert_eq!(hit(v, o * scale, d), None, "{v:?} {o} {d}");
+        }
+    }
+
+    #[test]
+    fn a_triangle_is_met_from_however_little_in_front_of_it() {
+        // The depth is below the rounding of the areas by which it is weighed: the plane has to decide.
+        let v = [Point::new(-1.0, -0.7, 0.0), Point::new(1.3, -0.9, 0.0), Point::new(0.1, 1.1, 0.0)];
+        for exponent in 1..=30 {
+            let z = 10.0_f32.powi(-exponent);
+            for side in [1.0, -1.0] {
+                let o = Vec3::new(0.1, -0.2, z * side);
+                let d = Vec3::new(0.3, 0.2, -0.9 * side);
+                let h = hit(v, o, d).expect("in front");
+                assert!((h.t / (z / 0.9) - 1.0).abs() < 1e-6, "{z}: {h:?}");
+                assert_eq!(hit(v, o, -d), None, "{z}");
             }
         }
     }
