@@ -493,6 +493,9 @@ mod tests {
         assert!(parse_uv("1").is_err() && parse_uv("nan,0").is_err());
         assert_eq!(parse_noise("2%").map(NoiseTarget::get), Ok(0.02));
         assert_eq!(parse_noise(" 0.5 % "), parse_noise("0.005"));
+        for said in ["20 %", "0.1 %", "33.3 %", "0.0001 %"] {
+            assert_eq!(parse_noise(said).map(|noise| noise.to_string()).as_deref(), Ok(said));
+        }
         for wrong in ["0", "2", "-1%", "101%", "nan", "%", "little"] {
             assert!(parse_noise(wrong).is_err(), "{wrong}");
         }

@@ -46,7 +46,7 @@ impl Reporter {
             let spp = job.sampling.spp;
             let samples = match job.sampling.noise {
                 None => format!("{spp} spp"),
-                Some(noise) => format!("up to {spp} spp for {} % of noise", 100.0 * noise.get()),
+                Some(noise) => format!("up to {spp} spp for a noise of {noise}"),
             };
             note(&format!("rendering {} x {} pixels with {samples}", x1 - x0, y1 - y0));
         }

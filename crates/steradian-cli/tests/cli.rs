@@ -189,7 +189,7 @@ fn a_noise_target_takes_samples_where_they_are_needed_and_says_what_it_reached()
     };
     let said = noise("2%", "8192");
     let lines: Vec<&str> = said.err.lines().collect();
-    assert_eq!(lines[0], "rendering 8 x 6 pixels with up to 8192 spp for 2 % of noise");
+    assert_eq!(lines[0], "rendering 8 x 6 pixels with up to 8192 spp for a noise of 2 %");
     assert!(said.err.contains("(target 2 %)") && !said.err.contains("warning"), "{said:?}");
     let frame = picture(&desk, "a.exr");
     let number = |name: &str| frame.attribute(name).unwrap().parse::<f64>().unwrap();

@@ -7,7 +7,6 @@ use crate::scene::Scene;
 use crate::spectrum::{Sampled, Wavelengths};
 use crate::units::kind::Irradiance;
 use crate::units::{Radiance, Unitless};
-use std::any::Any;
 
 /// Estimates incident radiance at the sensor, B (2.24).
 pub trait Integrator: Sync {
@@ -25,37 +24,6 @@ pub trait Integrator: Sync {
         tally: &mut Tally,
         first: Option<&mut FirstSurface>,
     ) -> Sampled<Radiance>;
-}
-
-/// What a learning integrator noted about the samples of one tile; it alone knows the type.
-pub type Notes = Box<dyn Any + Send>;
-
-/// An integrator that learns from the samples of one round how to take those of the next.
-///
-/// Notes of one tile are taken in the order of sample indices, and within an index in that of pixels; between rounds
-/// the notes of all tiles are handed over in the order of tiles. An estimate given what was learned before is
-/// unbiased, so all samples are kept.
-pub trait Learner: Integrator {
-    /// Samples per pixel after which it wants to learn next, above `done`; `None` when it will learn no more.
-    fn next_lesson(&self, done: u32) -> Option<u32>;
-
-    /// Empty notes for one tile and round.
-    fn notebook(&self) -> Notes;
-
-    /// [`Integrator::radiance`], adding to notes that [`Learner::notebook`] made.
-    fn radiance_with_notes(
-        &self,
-        scene: &Scene,
-        ray: Ray,
-        w: &mut Wavelengths,
-        sampler: &mut Sampler,
-        tally: &mut Tally,
-        first: Option<&mut FirstSurface>,
-        notes: &mut Notes,
-    ) -> Sampled<Radiance>;
-
-    /// Learns from a round.
-    fn learn(&mut self, scene: &Scene, notes: Vec<Notes>);
 }
 
 /// An integrator whose answers are those of light transport, so that instruments can rely on it.

@@ -7,7 +7,5 @@ pub mod path;
 mod vertex;
 
 pub use classic::ClassicShading;
-pub use contract::{
-    Arriving, FirstSurface, Integrator, Learner, Metering, Notes, SensorPoint, Tally, VisibleSurface,
-};
+pub use contract::{Arriving, FirstSurface, Integrator, Metering, SensorPoint, Tally, VisibleSurface};
 pub use path::PathTracer;

@@ -1,4 +1,4 @@
-//! Adaptive sampling: every pixel is told by its neighbours when to stop.
+//! Adaptive sampling: every pixel is told by its neighbours how many samples to take.
 //!
 //! Whoever stops when his own samples look quiet keeps those that happen to be quiet, and misses what is rare and bright
 //! (Kirk & Arvo 1991, "Unbiased sampling techniques for image synthesis"). So the picture is a checkerboard, and whether a
@@ -7,23 +7,27 @@
 //! the picture's common λ, to which one pixel contributes as one among all. That bias is of second order: 0.2 % of the light
 //! where half of it is found by one sample in 64, at a noise of 30 %, where deciding for oneself loses 17 % (64 renders).
 //!
-//! Rounds double the number of samples. The squared difference between a pixel's samples of the last round and those before
-//! estimates the variance of its mean with the gain of low-discrepancy points, which the spread among samples does not show.
+//! A round doubles the samples of every pixel that wants more. The squared difference between a pixel's samples of its last
+//! round and those before estimates the variance of its mean with the gain of low-discrepancy points, which the spread among
+//! samples does not show. A pixel that had enough may want more later, when others have found what is rare.
 
 use super::noise::{self, Knowledge, Teller};
 use super::report::Adaptive;
 use super::rounds::{Passes, TILE_SIDE};
-use super::setup::Estimator;
 use super::worker::Worker;
 use crate::film::{Film, FilmTile, PixelBounds};
-use crate::integrator::Notes;
+use crate::integrator::Integrator;
 use crate::scene::{NoiseTarget, RenderJob};
+use std::ops::Range;
 
-/// Samples per pixel after which the first round ends; the second one ends with the first decision.
+/// Samples per pixel after which the first round ends; the first decision follows the second.
 const FIRST_ROUND: u32 = 8;
 
 /// The dark part of a picture, where errors count relative to this share of the median brightness instead of their own.
 const DARK: f32 = 0.1;
+
+/// What a sample costs besides its rays, in rays: camera, wavelengths and film, as on the Cornell box.
+const SAMPLE_COST: f32 = 2.0;
 
 /// Renders until the noise meets the target or every pixel has the job's number of samples; returns the tiles of the picture,
 /// and what there is to say about them.
@@ -32,43 +36,63 @@ pub(super) fn render(
     job: &RenderJob,
     target: NoiseTarget,
     film: &Film,
-    estimator: &mut Estimator<'_>,
+    integrator: &dyn Integrator,
     passes: &mut Passes<'_>,
 ) -> (Vec<FilmTile>, Adaptive) {
     let mut tiles: Vec<Tile> =
         film.bounds().tiles(TILE_SIDE).into_iter().map(|b| Tile::new(film, b)).collect();
     let most = job.sampling.spp;
+    let worker = Worker::new(job, film, integrator);
     let mut decisions = Decisions::new(film.bounds(), target, most, teller);
     let mut expected = u64::from(most) * film.bounds().area() as u64;
-    let mut done = 0;
-    let mut stopped = false;
-    while let Some(round_end) = decisions.round_end().filter(|_| !stopped) {
-        while done < round_end && !stopped {
-            let lesson = estimator.next_lesson(done).filter(|&end| end > done && end <= round_end);
-            for tile in &mut tiles {
-                tile.notes = lesson.and_then(|_| estimator.notebook());
-            }
-            let worker = Worker::new(job, film, estimator);
-            let end = passes.round(
-                &mut tiles,
-                done..lesson.unwrap_or(round_end),
-                expected,
-                || worker.state(),
-                |state, tile, indices| {
-                    let pixels = tile.open.iter().copied();
-                    worker.add_samples(state, &mut tile.fresh, pixels, tile.notes.as_mut(), indices)
-                },
-            );
-            (done, stopped) = (end.next, end.stopped);
-            if lesson.is_some() && !stopped {
-                estimator.learn(&job.scene, tiles.iter_mut().filter_map(|tile| tile.notes.take()).collect());
-            }
-        }
-        decisions.close_round(film, &mut tiles, done);
+    loop {
         expected = decisions.decide(&mut tiles).unwrap_or(expected);
+        let steps = tiles.iter().flat_map(|tile| &tile.open).map(Open::len).max().unwrap_or(0);
+        if steps == 0 {
+            break;
+        }
+        let end = passes.round(
+            &mut tiles,
+            0..steps,
+            expected,
+            || worker.state(),
+            |state, tile, part| {
+                let rays_before = state.log.tally.rays();
+                let taken = tile.open.iter().map(|open| {
+                    let indices = open.at(part.start, steps)..open.at(part.end, steps);
+                    worker.add_samples(state, &mut tile.fresh, open.pixel, indices)
+                });
+                let taken = taken.sum();
+                tile.rays += state.log.tally.rays() - rays_before;
+                tile.samples += taken;
+                taken
+            },
+        );
+        decisions.close_round(film, &mut tiles, end.next, steps);
+        if end.stopped {
+            break;
+        }
     }
     let report = decisions.report();
     (tiles.into_iter().map(|tile| tile.all).collect(), report)
+}
+
+/// A pixel that takes samples.
+struct Open {
+    pixel: [i32; 2],
+    /// Which ones in this round.
+    indices: Range<u32>,
+}
+
+impl Open {
+    fn len(&self) -> u32 {
+        self.indices.end - self.indices.start
+    }
+
+    /// The index at which the pixel is after `done` of a round's `steps`, of which the longest range has one for each index.
+    fn at(&self, done: u32, steps: u32) -> u32 {
+        self.indices.start + (u64::from(self.len()) * u64::from(done) / u64::from(steps)) as u32
+    }
 }
 
 /// What one thread works on at a time.
@@ -77,16 +101,20 @@ struct Tile {
     all: FilmTile,
     /// The samples of this round.
     fresh: FilmTile,
-    /// The pixels that take samples.
-    open: Vec<[i32; 2]>,
-    /// In rounds from which the integrator learns.
-    notes: Option<Notes>,
+    open: Vec<Open>,
+    /// Rays and samples so far.
+    rays: u64,
+    samples: u64,
 }
 
 impl Tile {
     fn new(film: &Film, bounds: PixelBounds) -> Self {
-        let (all, fresh) = (film.tile(bounds), film.tile(bounds));
-        Self { all, fresh, open: bounds.pixels().collect(), notes: None }
+        Self { all: film.tile(bounds), fresh: film.tile(bounds), open: Vec::new(), rays: 0, samples: 0 }
+    }
+
+    /// Of a sample, in rays: told by so many pixels that none acts on its own number of samples in this way either.
+    fn cost(&self) -> f32 {
+        SAMPLE_COST + self.rays as f32 / self.samples.max(1) as f32
     }
 }
 
@@ -97,11 +125,8 @@ struct Decisions {
     /// Samples that a pixel can have.
     most: u32,
     teller: Teller,
-    /// Samples that all open pixels have.
-    now: u32,
     /// Whether there has been a round whose samples could be compared with as many before.
     informed: bool,
-    open: Vec<bool>,
     /// Samples that a pixel has.
     taken: Vec<u32>,
     /// Mean RGB of its samples.
@@ -118,38 +143,29 @@ impl Decisions {
             target,
             most,
             teller,
-            now: 0,
             informed: false,
-            open: vec![true; n],
             taken: vec![0; n],
             mean: vec![[0.0; 3]; n],
             variance: vec![0.0; n],
         }
     }
 
-    /// Samples per open pixel at the end of the coming round; `None` when there is nothing left to do.
-    fn round_end(&self) -> Option<u32> {
-        let end = if self.now == 0 { FIRST_ROUND } else { self.now.saturating_mul(2) };
-        (self.open.contains(&true) && self.now < self.most).then_some(end.min(self.most))
-    }
-
-    /// Takes over a round that ended at `now` samples.
-    fn close_round(&mut self, film: &Film, tiles: &mut [Tile], now: u32) {
-        let before = std::mem::replace(&mut self.now, now);
-        // Only then are the means before and in this round of equally many samples.
-        let doubled = now == 2 * before;
-        self.informed |= doubled;
+    /// Takes over a round of which `done` of its `steps` were executed.
+    fn close_round(&mut self, film: &Film, tiles: &mut [Tile], done: u32, steps: u32) {
         for tile in tiles {
             tile.all.absorb(&tile.fresh);
-            for &pixel in &tile.open {
+            for open in &tile.open {
+                let (pixel, now) = (open.pixel, open.at(done, steps));
                 let Some(at) = self.bounds.index(pixel) else { continue };
-                self.taken[at] = now;
-                if doubled {
+                // Only then are the means before and in this round of equally many samples.
+                if now > 0 && now == 2 * self.taken[at] {
+                    self.informed = true;
                     let fresh = film.rgb(&tile.fresh, pixel).map_or([0.0; 3], |rgb| rgb.0.to_array());
                     let squares: f32 = fresh.iter().zip(self.mean[at]).map(|(a, b)| (a - b) * (a - b)).sum();
                     // Var[x̄] = E[(x̄₂ − x̄₁)²]/4 for the mean of all, and n times that for one sample.
                     self.variance[at] = squares / 3.0 / 4.0 * now as f32;
                 }
+                self.taken[at] = now;
                 self.mean[at] = film.rgb(&tile.all, pixel).map_or([0.0; 3], |rgb| rgb.0.to_array());
             }
             tile.fresh = film.tile(tile.fresh.bounds());
@@ -165,32 +181,39 @@ impl Decisions {
         let dark =
             if lit.is_empty() { 0.0 } else { DARK * *lit.select_nth_unstable_by(middle, f32::total_cmp).1 };
         // A pixel brighter than its surroundings may be so by accident; its error must not look small for that.
-        let around = noise::told(&brightness, width, Teller::All);
+        let around = noise::told(&brightness, &vec![1.0; brightness.len()], width, Teller::All);
         let relative: Vec<f32> = (self.variance.iter().zip(&brightness).zip(around))
             .map(|((v, own), around)| {
                 let scale = own.min(around).max(dark);
                 if scale > 0.0 { v / (scale * scale) } else { 0.0 }
             })
             .collect();
-        noise::told(&relative, width, self.teller)
+        // Those who have more samples know more.
+        let weights: Vec<f32> = self.taken.iter().map(|&n| n as f32).collect();
+        noise::told(&relative, &weights, width, self.teller)
     }
 
-    /// Closes pixels that have enough; returns how many samples the render will take, once that can be foreseen.
-    fn decide(&mut self, tiles: &mut [Tile]) -> Option<u64> {
-        let (now, most) = (self.now, self.most);
-        if !self.informed || now >= most {
-            return None;
+    /// Opens the pixels that want more samples; returns how many the render will take, once that can be foreseen.
+    fn decide(&self, tiles: &mut [Tile]) -> Option<u64> {
+        let mut cost = vec![SAMPLE_COST; self.taken.len()];
+        for tile in &*tiles {
+            let of_tile = tile.cost();
+            tile.all.bounds().pixels().filter_map(|p| self.bounds.index(p)).for_each(|at| cost[at] = of_tile);
         }
-        let variance = self.told();
-        let known = Knowledge { variance: &variance, taken: &self.taken, open: &self.open };
-        let plan = noise::plan(&known, self.target.get().into(), now, most);
-        for (open, c) in self.open.iter_mut().zip(variance) {
-            *open &= noise::doubled(c.into(), plan.lambda, now, most) > now;
-        }
+        let variance = if self.informed { self.told() } else { vec![0.0; cost.len()] };
+        let known = Knowledge { variance: &variance, cost: &cost, taken: &self.taken };
+        let plan = self.informed.then(|| noise::plan(&known, self.target.get().into(), self.most));
         for tile in tiles {
-            tile.open.retain(|&pixel| self.bounds.index(pixel).is_some_and(|at| self.open[at]));
+            let wants_more = |pixel: [i32; 2]| {
+                let at = self.bounds.index(pixel)?;
+                let taken = self.taken[at];
+                let goal = plan.map_or(self.most, |plan| known.goal(at, plan.lambda, self.most));
+                let end = if taken == 0 { FIRST_ROUND } else { taken.saturating_mul(2) };
+                (goal > taken).then(|| Open { pixel, indices: taken..end.min(self.most) })
+            };
+            tile.open = tile.all.bounds().pixels().filter_map(wants_more).collect();
         }
-        Some(plan.samples)
+        plan.map(|plan| plan.samples)
     }
 
     fn report(&self) -> Adaptive {

@@ -1,7 +1,7 @@
 //! Execution: threads, tiles, rounds, passes, progress, cancellation.
 //!
-//! A render runs in rounds, between which an integrator may learn; a round runs in passes over all tiles, each of which
-//! adds the next samples of every pixel. Stopping between passes leaves a complete picture with fewer samples. Which
+//! A render runs in rounds, between which it may be decided which pixels go on; a round runs in passes over all tiles, each
+//! of which adds the next samples of every pixel. Stopping between passes leaves a complete picture with fewer samples. Which
 //! samples a pixel receives, and in which order, depends on neither threads nor tiles nor passes.
 
 mod adaptive;
@@ -22,11 +22,10 @@ pub use setup::RenderError;
 
 use crate::film::{Film, FilmKind, FilmTile};
 use crate::image::{Frame, Window};
-use crate::integrator::Notes;
+use crate::integrator::Integrator;
 use crate::scene::RenderJob;
 use noise::Teller;
 use rounds::{Passes, TILE_SIDE};
-use setup::Estimator;
 use worker::Worker;
 
 /// A finished (or stopped) render.
@@ -48,12 +47,12 @@ pub fn render(
     sink: &dyn ProgressSink,
     cancel: &CancelToken,
 ) -> Result<Rendering, RenderError> {
-    execute(job, setup::estimator(job), options, sink, cancel)
+    execute(job, &*setup::integrator(job), options, sink, cancel)
 }
 
 fn execute(
     job: &RenderJob,
-    mut estimator: Estimator<'_>,
+    integrator: &dyn Integrator,
     options: &RenderOptions,
     sink: &dyn ProgressSink,
     cancel: &CancelToken,
@@ -63,12 +62,12 @@ fn execute(
     let spp_requested = job.sampling.spp;
     let (tiles, spp, adaptive) = match job.sampling.noise {
         None => {
-            let (tiles, spp) = uniform(job, &film, &mut estimator, &mut passes);
+            let (tiles, spp) = uniform(job, &film, integrator, &mut passes);
             (tiles, spp, None)
         }
         Some(target) => {
             let (tiles, adaptive) =
-                adaptive::render(Teller::Others, job, target, &film, &mut estimator, &mut passes);
+                adaptive::render(Teller::Others, job, target, &film, integrator, &mut passes);
             (tiles, adaptive.mean_spp.round() as u32, Some(adaptive))
         }
     };
@@ -80,50 +79,24 @@ fn execute(
 fn uniform(
     job: &RenderJob,
     film: &Film,
-    estimator: &mut Estimator<'_>,
+    integrator: &dyn Integrator,
     passes: &mut Passes<'_>,
 ) -> (Vec<FilmTile>, u32) {
-    let mut items: Vec<Item> = film
-        .bounds()
-        .tiles(TILE_SIDE)
-        .into_iter()
-        .map(|b| Item { tile: film.tile(b), notes: None })
-        .collect();
+    let mut tiles: Vec<FilmTile> = film.bounds().tiles(TILE_SIDE).into_iter().map(|b| film.tile(b)).collect();
     let spp = job.sampling.spp;
     let expected = film.bounds().area() as u64 * u64::from(spp);
-    let mut done = 0;
-    while done < spp {
-        let lesson = estimator.next_lesson(done).filter(|&end| end > done && end <= spp);
-        for item in &mut items {
-            item.notes = lesson.and_then(|_| estimator.notebook());
-        }
-        let worker = Worker::new(job, film, estimator);
-        let end = passes.round(
-            &mut items,
-            done..lesson.unwrap_or(spp),
-            expected,
-            || worker.state(),
-            |state, item, indices| {
-                let pixels = item.tile.bounds().pixels();
-                worker.add_samples(state, &mut item.tile, pixels, item.notes.as_mut(), indices)
-            },
-        );
-        done = end.next;
-        if end.stopped {
-            break;
-        }
-        if lesson.is_some() {
-            estimator.learn(&job.scene, items.iter_mut().filter_map(|item| item.notes.take()).collect());
-        }
-    }
-    (items.into_iter().map(|item| item.tile).collect(), done)
-}
-
-/// What one thread works on at a time.
-struct Item {
-    tile: FilmTile,
-    /// In rounds from which the integrator learns.
-    notes: Option<Notes>,
+    let worker = Worker::new(job, film, integrator);
+    let end = passes.round(
+        &mut tiles,
+        0..spp,
+        expected,
+        || worker.state(),
+        |state, tile, indices| {
+            let pixels = tile.bounds().pixels();
+            pixels.map(|pixel| worker.add_samples(state, tile, pixel, indices.clone())).sum()
+        },
+    );
+    (tiles, end.next)
 }
 
 fn picture(job: &RenderJob, film: &Film, tiles: &[FilmTile], report: &Report) -> Result<Frame, RenderError> {

@@ -61,8 +61,8 @@ impl fmt::Display for Adaptive {
         }
         write!(
             f,
-            " (target {} %), {:.1} spp on average ({} to {}), {:.1} % of the pixels below the target",
-            100.0 * self.target.get(),
+            " (target {}), {:.1} spp on average ({} to {}), {:.1} % of the pixels below the target",
+            self.target,
             self.mean_spp,
             self.least_spp,
             self.largest_spp,

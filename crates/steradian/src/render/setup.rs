@@ -6,14 +6,10 @@ use crate::film::{
     SensorSettings, SpectralBins,
 };
 use crate::image::ImageError;
-use crate::integrator::{
-    ClassicShading, FirstSurface, Integrator, Learner, Metering, Notes, PathTracer, Tally,
-};
-use crate::math::{Ray, Vec2};
-use crate::sampler::Sampler;
-use crate::scene::{IntegratorSettings, RenderJob, Scene, desc};
-use crate::spectrum::{Sampled, Wavelengths};
-use crate::units::{Kelvin, Radiance};
+use crate::integrator::{ClassicShading, Integrator, Metering, PathTracer};
+use crate::math::Vec2;
+use crate::scene::{IntegratorSettings, RenderJob, desc};
+use crate::units::Kelvin;
 
 /// Why a job cannot be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -36,70 +32,14 @@ pub enum RenderError {
     Frame(#[from] ImageError),
 }
 
-/// The integrator of a render.
-pub(super) enum Estimator<'a> {
-    /// One that learns nothing.
-    Fixed(Box<dyn Integrator + 'a>),
-    /// One that learns between rounds.
-    #[cfg_attr(not(test), expect(dead_code, reason = "the place of guided paths"))]
-    Learning(Box<dyn Learner + 'a>),
-}
-
 /// The integrator that a job asks for.
-pub(super) fn estimator(job: &RenderJob) -> Estimator<'_> {
-    Estimator::Fixed(match &job.integrator {
+pub(super) fn integrator(job: &RenderJob) -> Box<dyn Integrator + '_> {
+    match &job.integrator {
         IntegratorSettings::Path(p) => {
             Box::new(PathTracer { max_depth: p.max_depth, regularize: p.regularize })
         }
         IntegratorSettings::Classic(c) => {
             Box::new(ClassicShading { ambient: c.ambient.as_deref(), shadows: c.shadows })
-        }
-    })
-}
-
-impl Estimator<'_> {
-    /// The index before which it learns next; `None` when it will learn no more.
-    pub(super) fn next_lesson(&self, done: u32) -> Option<u32> {
-        match self {
-            Self::Fixed(_) => None,
-            Self::Learning(learner) => learner.next_lesson(done),
-        }
-    }
-
-    /// Empty notes for a tile.
-    pub(super) fn notebook(&self) -> Option<Notes> {
-        match self {
-            Self::Fixed(_) => None,
-            Self::Learning(learner) => Some(learner.notebook()),
-        }
-    }
-
-    /// Learns from the notes of all tiles, in their order.
-    pub(super) fn learn(&mut self, scene: &Scene, notes: Vec<Notes>) {
-        match self {
-            Self::Fixed(_) => {}
-            Self::Learning(learner) => learner.learn(scene, notes),
-        }
-    }
-
-    /// [`Integrator::radiance`], with notes where they are wanted.
-    #[inline]
-    pub(super) fn radiance(
-        &self,
-        scene: &Scene,
-        ray: Ray,
-        w: &mut Wavelengths,
-        sampler: &mut Sampler,
-        tally: &mut Tally,
-        first: Option<&mut FirstSurface>,
-        notes: Option<&mut Notes>,
-    ) -> Sampled<Radiance> {
-        match (self, notes) {
-            (Self::Learning(learner), Some(notes)) => {
-                learner.radiance_with_notes(scene, ray, w, sampler, tally, first, notes)
-            }
-            (Self::Learning(learner), None) => learner.radiance(scene, ray, w, sampler, tally, first),
-            (Self::Fixed(integrator), _) => integrator.radiance(scene, ray, w, sampler, tally, first),
         }
     }
 }

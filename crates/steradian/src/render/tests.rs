@@ -1,5 +1,5 @@
 use super::*;
-use crate::integrator::{FirstSurface, Integrator, Learner, Tally};
+use crate::integrator::{FirstSurface, Integrator, Tally};
 use crate::math::Ray;
 use crate::sampler::Sampler;
 use crate::scene::import::pbrt::{Imported, Input, import};
@@ -7,7 +7,6 @@ use crate::scene::{Disk, Scene};
 use crate::spectrum::{Sampled, Wavelengths};
 use crate::units::Radiance;
 use std::path::Path;
-use std::sync::Mutex;
 use std::time::Duration;
 
 /// 40 × 24 pixels are six tiles, four of them cut.
@@ -32,61 +31,6 @@ fn job_of(film: &str, sampler: &str, spp: u32) -> RenderJob {
     crate::scene::compile(scene.unwrap(), &Disk, &mut diagnostics).unwrap()
 }
 
-/// Learns what it shows: the sum of what it noted, in the order in which it was handed over.
-#[derive(Default)]
-struct Pupil<'a> {
-    learned: f32,
-    lessons: Option<&'a Mutex<Vec<Vec<f32>>>>,
-}
-
-impl Integrator for Pupil<'_> {
-    fn radiance(
-        &self,
-        _: &Scene,
-        _: Ray,
-        _: &mut Wavelengths,
-        sampler: &mut Sampler,
-        tally: &mut Tally,
-        _: Option<&mut FirstSurface>,
-    ) -> Sampled<Radiance> {
-        tally.paths += 1;
-        Sampled::splat(self.learned + sampler.next_1d())
-    }
-}
-
-impl Learner for Pupil<'_> {
-    /// Lessons after 2, 4 and 8 samples.
-    fn next_lesson(&self, done: u32) -> Option<u32> {
-        (done < 8).then(|| (2 * done).max(2))
-    }
-
-    fn notebook(&self) -> Notes {
-        Box::new(Vec::<f32>::new())
-    }
-
-    fn radiance_with_notes(
-        &self,
-        scene: &Scene,
-        ray: Ray,
-        w: &mut Wavelengths,
-        sampler: &mut Sampler,
-        tally: &mut Tally,
-        first: Option<&mut FirstSurface>,
-        notes: &mut Notes,
-    ) -> Sampled<Radiance> {
-        let found = self.radiance(scene, ray, w, sampler, tally, first);
-        notes.downcast_mut::<Vec<f32>>().unwrap().push(found[0]);
-        found
-    }
-
-    fn learn(&mut self, _: &Scene, notes: Vec<Notes>) {
-        let all: Vec<f32> = notes.into_iter().flat_map(|n| *n.downcast::<Vec<f32>>().unwrap()).collect();
-        // Sums of floats depend on their order.
-        self.learned = all.iter().sum::<f32>() / all.len() as f32;
-        self.lessons.unwrap().lock().unwrap().push(all);
-    }
-}
-
 /// Makes passes short, so that rounds are cut at other places.
 struct Slow;
 
@@ -94,25 +38,6 @@ impl ProgressSink for Slow {
     fn update(&self, _: &Progress) {
         std::thread::sleep(Duration::from_millis(130));
     }
-}
-
-#[test]
-fn what_is_learned_depends_on_neither_threads_nor_tiles_nor_passes() {
-    let job = job(20);
-    let run = |threads, tile_order, sink: &dyn ProgressSink| {
-        let lessons = Mutex::new(Vec::new());
-        let pupil = Pupil { learned: 0.0, lessons: Some(&lessons) };
-        let options = RenderOptions { threads: Some(threads), tile_order, time_limit: None };
-        let estimator = Estimator::Learning(Box::new(pupil));
-        let rendering = execute(&job, estimator, &options, sink, &CancelToken::new()).unwrap();
-        assert_eq!((rendering.report.spp, rendering.report.tally.paths), (20, 20 * 40 * 24));
-        (lessons.into_inner().unwrap(), rendering.frame.channel("G").unwrap().to_vec())
-    };
-    let expected = run(1, TileOrder::Scanline, &Silent);
-    // A note for each sample of a round, and none after the last lesson.
-    assert_eq!(expected.0.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 4].map(|n| n * 40 * 24));
-    assert!(run(3, TileOrder::Strided, &Silent) == expected);
-    assert!(run(4, TileOrder::Reverse, &Slow) == expected);
 }
 
 /// The same light everywhere, half of it found by one sample in 64.
@@ -149,9 +74,8 @@ fn render_rare_light(job: &RenderJob, teller: Teller) -> (Vec<FilmTile>, Film, A
     let film = setup::film(job).unwrap();
     let (options, cancel) = (RenderOptions::default(), CancelToken::new());
     let mut passes = Passes::new(&options, &Silent, &cancel, film.bounds().area() as u64);
-    let mut estimator = Estimator::Fixed(Box::new(RareLight));
     let target = job.sampling.noise.unwrap();
-    let (tiles, report) = adaptive::render(teller, job, target, &film, &mut estimator, &mut passes);
+    let (tiles, report) = adaptive::render(teller, job, target, &film, &RareLight, &mut passes);
     (tiles, film, report)
 }
 
@@ -209,8 +133,7 @@ fn adaptive_pictures_depend_on_neither_threads_nor_tiles_nor_passes() {
     job.sampling.noise = crate::scene::NoiseTarget::new(0.8);
     let run = |threads, tile_order, sink: &dyn ProgressSink| {
         let options = RenderOptions { threads: Some(threads), tile_order, time_limit: None };
-        let estimator = Estimator::Fixed(Box::new(RareLight));
-        let rendering = execute(&job, estimator, &options, sink, &CancelToken::new()).unwrap();
+        let rendering = execute(&job, &RareLight, &options, sink, &CancelToken::new()).unwrap();
         let adaptive = rendering.report.adaptive.unwrap();
         assert!(adaptive.least_spp < adaptive.largest_spp, "{adaptive}");
         let counts = rendering.frame.channel("SampleCount").unwrap().to_vec();
@@ -250,9 +173,8 @@ fn the_noise_that_is_reported_is_the_difference_to_the_exact_picture() {
 fn a_maximum_that_is_too_small_is_noticed_and_written_into_the_picture() {
     let mut job = job(40);
     job.sampling.noise = crate::scene::NoiseTarget::new(0.01);
-    let estimator = Estimator::Fixed(Box::new(RareLight));
     let rendering =
-        execute(&job, estimator, &RenderOptions::default(), &Silent, &CancelToken::new()).unwrap();
+        execute(&job, &RareLight, &RenderOptions::default(), &Silent, &CancelToken::new()).unwrap();
     let adaptive = rendering.report.adaptive.unwrap();
     assert!(adaptive.stopped_by_maximum() && adaptive.noise.unwrap() > 0.1, "{adaptive}");
     assert_eq!((adaptive.mean_spp, adaptive.share_at_maximum, adaptive.quiet_share), (40.0, 1.0, 0.0));

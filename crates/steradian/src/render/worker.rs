@@ -1,10 +1,9 @@
 //! One sample: from a pixel and an index to a record on the film.
 
 use super::report::{Dropped, DroppedSample};
-use super::setup::Estimator;
 use crate::camera::CameraSample;
 use crate::film::{Film, FilmSample, FilmTile, Recorded, SurfaceLayers};
-use crate::integrator::{FirstSurface, Notes, Tally, VisibleSurface};
+use crate::integrator::{FirstSurface, Integrator, Tally, VisibleSurface};
 use crate::math::{Normal, Transform, Vec2};
 use crate::sampler::Sampler;
 use crate::scene::desc::{FilmKind, GBufferSpace};
@@ -29,13 +28,13 @@ pub(super) struct Log {
 pub(super) struct Worker<'a> {
     job: &'a RenderJob,
     film: &'a Film,
-    estimator: &'a Estimator<'a>,
+    integrator: &'a dyn Integrator,
     layer_from_render: Transform,
 }
 
 impl<'a> Worker<'a> {
-    pub(super) fn new(job: &'a RenderJob, film: &'a Film, estimator: &'a Estimator<'a>) -> Self {
-        Self { job, film, estimator, layer_from_render: layer_space(job) }
+    pub(super) fn new(job: &'a RenderJob, film: &'a Film, integrator: &'a dyn Integrator) -> Self {
+        Self { job, film, integrator, layer_from_render: layer_space(job) }
     }
 
     pub(super) fn state(&self) -> State {
@@ -44,38 +43,19 @@ impl<'a> Worker<'a> {
         State { sampler, log: Log::default() }
     }
 
-    /// Adds the samples `indices` of the given pixels to their tile; returns how many that were.
+    /// Adds the samples `indices` of a pixel to its tile; returns how many that were.
     pub(super) fn add_samples(
         &self,
         state: &mut State,
         tile: &mut FilmTile,
-        pixels: impl Iterator<Item = [i32; 2]> + Clone,
-        notes: Option<&mut Notes>,
+        pixel: [i32; 2],
         indices: Range<u32>,
     ) -> u64 {
-        let State { sampler, log } = state;
-        let mut count = 0;
-        match notes {
-            None => {
-                for pixel in pixels {
-                    count += 1;
-                    for index in indices.clone() {
-                        self.add_sample(sampler, log, tile, pixel, index, None);
-                    }
-                }
-            }
-            // Index by index, so that the order of the notes does not depend on where passes end.
-            Some(notes) => {
-                for index in indices.clone() {
-                    count = 0;
-                    for pixel in pixels.clone() {
-                        count += 1;
-                        self.add_sample(sampler, log, tile, pixel, index, Some(&mut *notes));
-                    }
-                }
-            }
+        let count = u64::from(indices.end - indices.start);
+        for index in indices {
+            self.add_sample(&mut state.sampler, &mut state.log, tile, pixel, index);
         }
-        count * u64::from(indices.end - indices.start)
+        count
     }
 
     fn add_sample(
@@ -85,7 +65,6 @@ impl<'a> Worker<'a> {
         tile: &mut FilmTile,
         pixel: [i32; 2],
         index: u32,
-        notes: Option<&mut Notes>,
     ) {
         sampler.start(pixel, index);
         let u_filter = sampler.next_pixel_2d();
@@ -108,8 +87,7 @@ impl<'a> Worker<'a> {
         let (radiance, weight) = match self.job.scene.camera().ray(&CameraSample { film, lens, time }) {
             Some(camera) => {
                 let (scene, ray, tally) = (&self.job.scene, camera.ray, &mut log.tally);
-                let radiance =
-                    self.estimator.radiance(scene, ray, &mut w, sampler, tally, first.as_mut(), notes);
+                let radiance = self.integrator.radiance(scene, ray, &mut w, sampler, tally, first.as_mut());
                 (radiance, weight * camera.weight)
             }
             None => (Sampled::ZERO, weight),

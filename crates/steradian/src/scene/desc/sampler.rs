@@ -1,6 +1,7 @@
 //! The sampler as the scene states it.
 
 use crate::scene::source::Span;
+use std::fmt;
 
 /// Most samples per pixel: the sequences are distinct up to here, and more are taken for a slip.
 pub const MAX_SAMPLES: u32 = 1 << 24;
@@ -39,6 +40,13 @@ impl NoiseTarget {
     /// The fraction, in (0, 1].
     pub fn get(self) -> f32 {
         self.0
+    }
+}
+
+impl fmt::Display for NoiseTarget {
+    /// As a percentage, without what the fraction's rounding would add to what was asked for.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} %", (f64::from(self.0) * 1e6).round() / 1e4)
     }
 }
 
