@@ -1,12 +1,30 @@
 //! Memory in large pages: a query touches a few cache lines all over the tree, and with pages of 4 KiB every other one
 //! also misses the processor's table of pages.
-#![expect(unsafe_code, reason = "the advice to the system has no safe interface among our dependencies")]
+//!
+//! The system clears a page before it gives it away, and that takes longer than to fill it: what has served is used again.
+#![expect(unsafe_code, reason = "advice to the system and memory lent to another type have no safe interface at hand")]
+
+use bytemuck::{Pod, Zeroable};
 
 /// An empty vector with room for `count` elements which, where the system follows the advice, lie in large pages.
 pub(super) fn reserved<T>(count: usize) -> Vec<T> {
     let values = Vec::with_capacity(count);
     advise(&values);
     values
+}
+
+/// `count` elements of zero bytes in such pages. Where the system hands out zeros, what is not used takes no memory.
+pub(super) fn zeroed<T: Zeroable>(count: usize) -> Vec<T> {
+    let values = bytemuck::zeroed_vec(count);
+    advise(&values);
+    values
+}
+
+/// The memory of `values` as elements of another type, from the first place on that suits them.
+pub(super) fn lent<T: Pod, U: Pod>(values: &mut [T]) -> &mut [U] {
+    // SAFETY: any bytes are a value of either type.
+    let (_, lent, _) = unsafe { values.align_to_mut() };
+    lent
 }
 
 #[cfg(target_os = "linux")]
@@ -39,5 +57,17 @@ mod tests {
             v.extend((0..count as u64).map(|i| i * i));
             assert!(v.iter().enumerate().all(|(i, x)| *x == (i * i) as u64));
         }
+    }
+
+    #[test]
+    fn lent_memory_is_aligned_and_nearly_all_of_it() {
+        let mut bytes = zeroed::<u8>(1000);
+        for first in 0..16 {
+            let lent = lent::<u8, u64>(&mut bytes[first..]);
+            assert!(lent.as_ptr().is_aligned() && lent.len() >= (1000 - first) / 8 - 1);
+            assert!(first > 0 || lent.iter().all(|x| *x == 0));
+            lent.fill(u64::MAX);
+        }
+        assert!(bytes[16..984].iter().all(|x| *x == 255));
     }
 }

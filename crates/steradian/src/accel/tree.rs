@@ -161,7 +161,7 @@ impl Node {
 }
 
 /// Four triangles: corner by corner, axis by axis.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C, align(16))]
 pub(super) struct Packet {
     pub(super) corners: [[[f32; LANES]; 3]; 3],
@@ -170,7 +170,7 @@ pub(super) struct Packet {
 }
 
 /// The shape of a packet's lane, and whether its hits are filtered; or nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 pub(super) struct Owner(u32);
 

@@ -1,7 +1,7 @@
 //! Where to divide: the surface area heuristic over bins of centres, and over bins of sizes.
 
-use super::reference::{Box4, Extent, Reference, Tally};
-use glam::Vec4;
+use super::reference::{Box4, Extent, Reference, packets};
+use glam::{Mat4, Vec4};
 
 /// Bins per axis, at most; a power of two, so that masked bits are a valid index.
 const MAX_BINS: usize = 32;
@@ -67,15 +67,14 @@ impl Mapping {
     /// Whether a reference lies behind a division: exactly as the bins have counted it.
     #[inline(always)]
     pub(super) fn is_behind(&self, r: &Reference, s: &Division) -> bool {
-        let bin = match (s.key, self.largest) {
+        match (s.key, self.largest) {
+            // Numbers from the rounding one on are ordered as the bins are.
             (Key::Center(axis), _) => {
-                let at = ((r.lo[axis] + r.hi[axis]) - self.base[axis]) * self.scale[axis] + ROUNDING;
-                at.to_bits() as usize & (MAX_BINS - 1)
+                ((r.lo[axis] + r.hi[axis]) - self.base[axis]) * self.scale[axis] + ROUNDING >= s.threshold
             }
-            (Key::Size, Some(largest)) => Self::by_size(largest, r),
-            (Key::Size, None) => 0,
-        };
-        bin >= s.bin
+            (Key::Size, Some(largest)) => Self::by_size(largest, r) >= s.bin,
+            (Key::Size, None) => false,
+        }
     }
 }
 
@@ -85,102 +84,122 @@ pub(super) struct Division {
     key: Key,
     /// First bin of the second half.
     bin: usize,
+    /// The same in the numbers of the mapping by centre.
+    threshold: f32,
 }
 
-/// How many references there are in each bin, and how far they reach. Smallest, largest and sum do not depend on the
-/// order of adding, so that any division of the work gives the same bins.
+/// What each bin weighs, and how far it reaches. Smallest, largest and sum do not depend on the order of adding, so that
+/// any division of the work gives the same bins. The keys lie side by side, so that all are searched at once.
 #[derive(Clone, Debug)]
 pub(super) struct Bins {
-    boxes: [[Box4; MAX_BINS]; KEYS.len()],
-    tallies: [[Tally; MAX_BINS]; KEYS.len()],
+    boxes: [[Box4; KEYS.len()]; MAX_BINS],
+    weights: [[u32; KEYS.len()]; MAX_BINS],
 }
 
 /// References that stay in the nearest cache between binning by centre and by size.
 const BLOCK: usize = 512;
 
-#[inline(always)]
-fn cost(reach: Box4, tally: Tally) -> f32 {
-    reach.half_area() * tally.packets() as f32
+/// The bins up to one, or from one on, for every key.
+#[derive(Clone, Copy)]
+struct Sweep {
+    reaches: [Box4; KEYS.len()],
+    weights: [u32; KEYS.len()],
+}
+
+impl Sweep {
+    const EMPTY: Self = Self { reaches: [Box4::EMPTY; KEYS.len()], weights: [0; KEYS.len()] };
+
+    #[inline(always)]
+    fn add(&mut self, bins: &Bins, bin: usize) {
+        for key in 0..KEYS.len() {
+            self.reaches[key] = self.reaches[key].union(bins.boxes[bin][key]);
+            self.weights[key] += bins.weights[bin][key];
+        }
+    }
+
+    /// Half areas times packets; NaN where there is nothing.
+    #[inline(always)]
+    fn costs(&self) -> Vec4 {
+        let size = self.reaches.map(|b| b.hi - b.lo);
+        let Mat4 { x_axis: x, y_axis: y, z_axis: z, .. } =
+            Mat4::from_cols(size[0], size[1], size[2], size[3]).transpose();
+        // Fewer than 2³¹, so that the conversion is a single instruction.
+        let packets = self.weights.map(|w| packets(w) as i32 as f32);
+        (x * (y + z) + y * z) * Vec4::from_array(packets)
+    }
 }
 
 impl Bins {
     pub(super) fn new() -> Self {
-        Self { boxes: [[Box4::EMPTY; MAX_BINS]; KEYS.len()], tallies: [[Tally::ZERO; MAX_BINS]; KEYS.len()] }
+        Self { boxes: [[Box4::EMPTY; KEYS.len()]; MAX_BINS], weights: [[0; KEYS.len()]; MAX_BINS] }
     }
 
     /// Empties the bins that `mapping` uses.
     #[inline(always)]
     pub(super) fn clear(&mut self, mapping: &Mapping) {
-        for axis in 0..3 {
-            self.boxes[axis][..mapping.bins].fill(Box4::EMPTY);
-            self.tallies[axis][..mapping.bins].fill(Tally::ZERO);
-        }
-        if mapping.largest.is_some() {
-            self.boxes[3].fill(Box4::EMPTY);
-            self.tallies[3].fill(Tally::ZERO);
-        }
+        self.boxes[..mapping.bins].fill([Box4::EMPTY; KEYS.len()]);
+        self.weights[..mapping.bins].fill([0; KEYS.len()]);
     }
 
     /// Adds every `step`-th reference.
     #[inline(always)]
     pub(super) fn add(&mut self, references: &[Reference], step: usize, mapping: &Mapping) {
         for block in references.chunks(BLOCK * step) {
-            for r in block.iter().step_by(step) {
-                for (axis, bin) in mapping.by_center(r).into_iter().enumerate() {
-                    self.count(axis, bin, r);
+            // Copied, so that they need not be read again after each writing to a bin.
+            for r in block.iter().step_by(step).copied() {
+                let (reach, weight) = (r.as_box(), r.weight());
+                for (axis, bin) in mapping.by_center(&r).into_iter().enumerate() {
+                    self.count(axis, bin, reach, weight);
                 }
             }
             if let Some(largest) = mapping.largest {
-                block.iter().step_by(step).for_each(|r| self.count(3, Mapping::by_size(largest, r), r));
+                for r in block.iter().step_by(step) {
+                    self.count(3, Mapping::by_size(largest, r), r.as_box(), r.weight());
+                }
             }
         }
     }
 
     #[inline(always)]
-    fn count(&mut self, key: usize, bin: usize, r: &Reference) {
-        self.boxes[key][bin] = self.boxes[key][bin].union(r.as_box());
-        self.tallies[key][bin].add(r.tally());
+    fn count(&mut self, key: usize, bin: usize, reach: Box4, weight: u32) {
+        self.boxes[bin][key] = self.boxes[bin][key].union(reach);
+        self.weights[bin][key] += weight;
     }
 
     pub(super) fn merge(&mut self, other: &Self) {
         for (a, b) in self.boxes.as_flattened_mut().iter_mut().zip(other.boxes.as_flattened()) {
             *a = a.union(*b);
         }
-        for (a, b) in self.tallies.as_flattened_mut().iter_mut().zip(other.tallies.as_flattened()) {
-            a.add(*b);
+        for (a, b) in self.weights.as_flattened_mut().iter_mut().zip(other.weights.as_flattened()) {
+            *a += b;
         }
     }
 
     /// The cheapest division; `None` where nothing can be told apart or no cost is finite.
     #[inline(always)]
     pub(super) fn cheapest(&self, mapping: &Mapping) -> Option<Division> {
+        let mut behind = [Vec4::ZERO; MAX_BINS];
+        let mut sweep = Sweep::EMPTY;
+        for bin in (1..mapping.bins).rev() {
+            sweep.add(self, bin);
+            behind[bin] = sweep.costs();
+        }
+        let (mut least, mut at) = (Vec4::INFINITY, Vec4::ZERO);
+        sweep = Sweep::EMPTY;
+        for bin in 1..mapping.bins {
+            sweep.add(self, bin - 1);
+            let costs = sweep.costs() + behind[bin];
+            // Nothing on one side costs NaN, which is not less than anything.
+            let is_less = costs.cmplt(least);
+            least = Vec4::select(is_less, costs, least);
+            at = Vec4::select(is_less, Vec4::splat(bin as f32), at);
+        }
         let mut best = None;
-        let mut least = f32::INFINITY;
+        let mut cost = f32::INFINITY;
         for (i, key) in KEYS.into_iter().enumerate() {
-            let count = match key {
-                Key::Center(axis) if mapping.scale[axis] != 0.0 => mapping.bins,
-                Key::Size if mapping.largest.is_some() => MAX_BINS,
-                _ => continue,
-            };
-            let (boxes, tallies) = (&self.boxes[i][..count], &self.tallies[i][..count]);
-            let mut behind = [f32::INFINITY; MAX_BINS];
-            let (mut reach, mut tally) = (Box4::EMPTY, Tally::ZERO);
-            for bin in (1..count).rev() {
-                reach = reach.union(boxes[bin]);
-                tally.add(tallies[bin]);
-                if tally != Tally::ZERO {
-                    behind[bin] = cost(reach, tally);
-                }
-            }
-            let (mut reach, mut tally) = (Box4::EMPTY, Tally::ZERO);
-            for bin in 1..count {
-                reach = reach.union(boxes[bin - 1]);
-                tally.add(tallies[bin - 1]);
-                let cost = cost(reach, tally) + behind[bin];
-                if cost < least && tally != Tally::ZERO {
-                    least = cost;
-                    best = Some(Division { key, bin });
-                }
+            if least[i] < cost {
+                cost = least[i];
+                best = Some(Division { key, bin: at[i] as usize, threshold: ROUNDING + at[i] });
             }
         }
         best

@@ -3,6 +3,7 @@
 use super::reference::{Box4, Reference, Subject};
 use super::segments::Segments;
 use crate::accel::contract::{AccelError, InstanceId};
+use crate::accel::pages;
 use crate::accel::tree::Child;
 use crate::math::Bounds3;
 use crate::shape::{Shape, ShapeId};
@@ -27,7 +28,7 @@ pub(super) fn gather(
         return Err(AccelError::TooLarge { count });
     }
     let unbounded = AtomicBool::new(false);
-    let mut references = Vec::new();
+    let mut references = pages::reserved(count);
     (0..count)
         .into_par_iter()
         .map_init(

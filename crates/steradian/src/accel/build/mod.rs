@@ -19,10 +19,10 @@ mod tests;
 mod trunk;
 
 use super::contract::{AccelError, InstanceId, Layout};
-use super::tree::{Node, Tree};
+use super::pages;
+use super::tree::{LANES, Node, Packet, Tree};
 use crate::math::Bounds3;
 use crate::shape::{Shape, ShapeId};
-use rayon::prelude::*;
 use reference::Reference;
 use trunk::Trunk;
 
@@ -44,6 +44,13 @@ pub(super) fn is_large(shapes: &[Shape], ids: &[ShapeId]) -> bool {
     ids.iter().map(count).sum::<usize>() > TOGETHER
 }
 
+/// Packets for which memory is taken before it is known how many there will be: enough for most meshes, and to sort
+/// `count` references.
+fn packets_at_first(count: usize) -> usize {
+    let sorting = ((count + 1) * size_of::<Reference>()).div_ceil(size_of::<Packet>());
+    sorting.max(count * 7 / (6 * LANES))
+}
+
 /// Builds the tree over all primitives of the shapes `ids` and over `instances` with their boxes.
 pub(super) fn build(
     shapes: &[Shape],
@@ -57,10 +64,10 @@ pub(super) fn build(
         return Ok(Tree { nodes: vec![Node::EMPTY], ..Tree::default() });
     }
     let grain = (count / BRANCHES).clamp(SMALLEST_BRANCH, LARGEST_BRANCH);
-    let mut spare = Vec::new();
-    references.par_iter().map(|_| Reference::ZERO).collect_into_vec(&mut spare);
-    let limb = divide::divide(&mut references, &mut spare, grain);
-    drop(spare);
+    // The memory of the packets, which come last, is lent until then.
+    let mut packets: Vec<Packet> = pages::zeroed(packets_at_first(count));
+    let spare = &mut pages::lent(&mut packets)[..count];
+    let limb = divide::divide(&mut references, spare, grain);
     let trunk = Trunk::new(limb);
     let bounds = trunk.reach_of(Trunk::ROOT).bounds();
     let branches: usize = trunk.branches.iter().map(branch::Branch::heap_bytes).sum();
@@ -68,13 +75,12 @@ pub(super) fn build(
     drop(trunk);
     let chunks: usize = collapsed.chunks.iter().map(collapse::Chunk::heap_bytes).sum();
     let nodes: usize = collapsed.chunks.iter().map(|c| size_of_val(&c.nodes[..])).sum();
-    let mut tree = pack::pack(shapes, layout, collapsed, references)?;
+    let mut tree = pack::pack(shapes, layout, collapsed, references, packets)?;
     tree.bounds = Some(bounds);
     let references = count * size_of::<Reference>();
-    // What is held at once while dividing, collapsing, and at the end of packing, when the chunks' nodes are gone.
+    // What is held at once at the end of collapsing and of packing, when the chunks' nodes are gone.
     let moments = [
-        2 * references + branches,
-        references + branches + chunks,
+        2 * references + branches + chunks,
         references + chunks - nodes + tree.heap_bytes(),
     ];
     tree.peak_bytes = moments.into_iter().max().unwrap_or(0);

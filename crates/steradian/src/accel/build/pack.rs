@@ -41,12 +41,14 @@ impl Offsets {
     }
 }
 
-/// Fills the tree. `collapsed` and `references` are released as soon as they have served.
+/// Fills the tree. `collapsed` and `references` are released as soon as they have served; `room` is where the packets go,
+/// if they fit.
 pub(super) fn pack(
     shapes: &[Shape],
     layout: &Layout,
     mut collapsed: Collapsed,
     references: Vec<Reference>,
+    mut room: Vec<Packet>,
 ) -> Result<Tree, AccelError> {
     let offsets = Offsets::new(&collapsed.chunks);
     let (nodes, packets) = (offsets.nodes.total(), offsets.packets.total());
@@ -55,7 +57,6 @@ pub(super) fn pack(
     }
     let mut tree = Tree {
         nodes: pages::reserved(nodes),
-        packets: pages::reserved(packets),
         depth: collapsed.depth,
         ..Tree::default()
     };
@@ -82,16 +83,20 @@ pub(super) fn pack(
     collapsed.chunks.iter_mut().for_each(|c| c.nodes = Vec::new());
     let packer = Packer { shapes, layout, references: &references };
     let chunks = &collapsed.chunks;
-    (0..packets)
-        .into_par_iter()
-        .map_init(
-            || 0,
-            |hint, i| {
-                let at = offsets.packets.locate(i, hint);
-                packer.packet(chunks[at.list].bundles[at.index])
-            },
-        )
-        .collect_into_vec(&mut tree.packets);
+    if room.len() < packets {
+        room = Vec::new();
+        room = pages::zeroed(packets);
+    }
+    room.truncate(packets);
+    room.par_iter_mut().enumerate().for_each_init(
+        || 0,
+        |hint, (i, packet)| {
+            let at = offsets.packets.locate(i, hint);
+            *packet = packer.packet(chunks[at.list].bundles[at.index]);
+        },
+    );
+    room.shrink_to_fit();
+    tree.packets = room;
     tree.items.reserve_exact(offsets.items.total());
     tree.members.reserve_exact(offsets.members.total());
     for (i, chunk) in chunks.iter().enumerate() {

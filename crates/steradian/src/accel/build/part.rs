@@ -44,7 +44,7 @@ impl<'a> Part<'a> {
     /// Whether one packet, one bunch of curves, or the only item of a leaf holds all.
     #[inline(always)]
     pub(super) fn is_leaf(&self) -> bool {
-        self.extent.tally.weight() <= LANES as u32
+        self.extent.weight <= LANES as u32
             || (self.references.len() <= STRANDS && self.references.iter().all(Reference::is_strand))
     }
 

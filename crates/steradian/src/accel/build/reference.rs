@@ -64,7 +64,7 @@ pub(super) enum Subject {
 
 /// A subject with its box. Its numbers lie in the fourth components, as bits of floats around two: they go through the
 /// arithmetic of the box and must neither be NaN nor so small that processors slow down.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C, align(32))]
 pub(super) struct Reference {
     pub(super) lo: Vec4,
@@ -72,7 +72,6 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    pub(super) const ZERO: Self = Self { lo: Vec4::ZERO, hi: Vec4::ZERO };
     const NORMAL: u32 = 1 << 30;
     const OTHER: u32 = 1 << 29;
     const STRAND: u32 = 1 << 28;
@@ -123,48 +122,30 @@ impl Reference {
         self.lo + self.hi
     }
 
+    /// What testing it costs, in triangles: anything else costs a packet of its own.
     #[inline(always)]
-    pub(super) fn tally(&self) -> Tally {
-        Tally(1 | u64::from(self.lo.w.to_bits() & Self::OTHER) << (32 - Self::OTHER.trailing_zeros()))
+    pub(super) fn weight(&self) -> u32 {
+        1 + (LANES as u32 - 1) * (self.lo.w.to_bits() / Self::OTHER & 1)
     }
 }
 
-/// Number of references, and how many of them are no triangles in the upper half.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Tally(u64);
-
-impl Tally {
-    pub(super) const ZERO: Self = Self(0);
-
-    #[inline(always)]
-    pub(super) fn add(&mut self, other: Self) {
-        self.0 += other.0;
-    }
-
-    /// What testing all of them costs, in tests of a packet of triangles: anything else costs a packet of its own.
-    #[inline(always)]
-    pub(super) fn packets(self) -> u32 {
-        self.weight().div_ceil(LANES as u32)
-    }
-
-    /// In triangles.
-    #[inline(always)]
-    pub(super) fn weight(self) -> u32 {
-        self.0 as u32 + (LANES as u32 - 1) * (self.0 >> 32) as u32
-    }
+/// Packets of triangles that weigh so much.
+#[inline(always)]
+pub(super) fn packets(weight: u32) -> u32 {
+    weight.div_ceil(LANES as u32)
 }
 
-/// How far some references reach, and their centres, and how many there are.
+/// How far some references reach, and their centres, and what they weigh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) boxes: Box4,
     /// Of [`Reference::center`].
     pub(super) centers: Box4,
-    pub(super) tally: Tally,
+    pub(super) weight: u32,
 }
 
 impl Extent {
-    pub(super) const EMPTY: Self = Self { boxes: Box4::EMPTY, centers: Box4::EMPTY, tally: Tally::ZERO };
+    pub(super) const EMPTY: Self = Self { boxes: Box4::EMPTY, centers: Box4::EMPTY, weight: 0 };
 
     #[inline]
     pub(super) fn of(references: &[Reference]) -> Self {
@@ -173,14 +154,16 @@ impl Extent {
             let c = r.center();
             e.boxes = e.boxes.union(r.as_box());
             e.centers = e.centers.union(Box4 { lo: c, hi: c });
-            e.tally.add(r.tally());
+            e.weight += r.weight();
         }
         e
     }
 
     pub(super) fn union(self, other: Self) -> Self {
-        let mut tally = self.tally;
-        tally.add(other.tally);
-        Self { boxes: self.boxes.union(other.boxes), centers: self.centers.union(other.centers), tally }
+        Self {
+            boxes: self.boxes.union(other.boxes),
+            centers: self.centers.union(other.centers),
+            weight: self.weight + other.weight,
+        }
     }
 }
