@@ -1,8 +1,8 @@
 //! Memory in large pages: a query touches a few cache lines all over the tree, and with pages of 4 KiB every other one
 //! also misses the processor's table of pages.
 //!
-//! The system clears a page before it gives it away, and that takes longer than to fill it: what has served is used again.
-#![expect(unsafe_code, reason = "advice to the system and memory lent to another type have no safe interface at hand")]
+//! The system clears a page before it gives it away, which costs as much as to fill it: what has served is used again.
+#![expect(unsafe_code, reason = "the advice to the system has no safe interface among our dependencies")]
 
 use bytemuck::{Pod, Zeroable};
 
@@ -20,11 +20,15 @@ pub(super) fn zeroed<T: Zeroable>(count: usize) -> Vec<T> {
     values
 }
 
-/// The memory of `values` as elements of another type, from the first place on that suits them.
+/// The memory of `values` as elements of another type, from the first place on that suits them: all that its bytes hold
+/// but for one, perhaps.
 pub(super) fn lent<T: Pod, U: Pod>(values: &mut [T]) -> &mut [U] {
-    // SAFETY: any bytes are a value of either type.
-    let (_, lent, _) = unsafe { values.align_to_mut() };
-    lent
+    let bytes: &mut [u8] = bytemuck::cast_slice_mut(values);
+    let begin = bytes.as_ptr().addr();
+    let skipped = begin.next_multiple_of(align_of::<U>()) - begin;
+    let aligned = bytes.get_mut(skipped..).unwrap_or_default();
+    let used = aligned.len() / size_of::<U>() * size_of::<U>();
+    bytemuck::cast_slice_mut(&mut aligned[..used])
 }
 
 #[cfg(target_os = "linux")]

@@ -10,8 +10,21 @@ const MAX_BINS: usize = 32;
 /// in large surroundings (a table on a ground plane) no division by place is good.
 const SIZED: usize = 4096;
 
+/// Part of the whole's area below which nothing counts as large.
+const LARGE: f32 = 1.0 / 64.0;
+
 /// A number whose units are the last bits of its mantissa: adding it leaves the nearest integer in the low bits.
 const ROUNDING: f32 = 8_388_608.0;
+
+/// Spread of the centres along an axis, in parts of the largest, below which no division is looked for along it. Even two
+/// parallel sheets are better divided across until they are less than three times as wide as they are apart.
+const THIN: f32 = 0.25;
+
+/// Whether a reference of this half area counts as large among the others.
+#[inline(always)]
+pub(super) fn is_large(half_area: f32, all: &Extent) -> bool {
+    half_area >= LARGE * all.boxes.half_area()
+}
 
 /// By what the references are divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +35,14 @@ enum Key {
 
 const KEYS: [Key; 4] = [Key::Center(0), Key::Center(1), Key::Center(2), Key::Size];
 
+/// Index of the size among the keys.
+const SIZE: usize = 3;
+
 /// From a reference to its bins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mapping {
     base: Vec4,
-    /// Bins per unit; zero on an axis along which nothing can be told apart.
+    /// Bins per unit; zero on an axis along which nothing can be told apart or need be.
     scale: Vec4,
     bins: usize,
     /// Bits of the half area of everything, if sizes are binned.
@@ -35,26 +51,29 @@ pub(super) struct Mapping {
 
 impl Mapping {
     #[inline(always)]
-    pub(super) fn new(extent: &Extent, count: usize) -> Self {
+    pub(super) fn new(extent: &Extent, count: usize, largest: f32) -> Self {
         let bins = (8 + count / 8).min(MAX_BINS);
         let size = extent.centers.hi - extent.centers.lo;
         let scale = Vec4::splat((bins - 1) as f32) / size;
+        let least = (THIN * size.x.max(size.y).max(size.z)).max(f32::MIN_POSITIVE);
         let usable = |axis: usize| {
-            if size[axis] > 0.0 && scale[axis].is_finite() { scale[axis] } else { 0.0 }
+            if size[axis] >= least && scale[axis].is_finite() { scale[axis] } else { 0.0 }
         };
-        let largest = (count >= SIZED).then(|| extent.boxes.half_area().to_bits());
-        Self {
-            base: extent.centers.lo,
-            scale: Vec4::new(usable(0), usable(1), usable(2), 0.0),
-            bins,
-            largest,
-        }
+        let largest =
+            (count >= SIZED && is_large(largest, extent)).then(|| extent.boxes.half_area().to_bits());
+        let scale = Vec4::new(usable(0), usable(1), usable(2), 0.0);
+        Self { base: extent.centers.lo, scale, bins, largest }
+    }
+
+    /// The place of a centre along an axis, in bins, above the rounding.
+    #[inline(always)]
+    fn place(&self, axis: usize, r: &Reference) -> f32 {
+        ((r.lo[axis] + r.hi[axis]) - self.base[axis]) * self.scale[axis] + ROUNDING
     }
 
     #[inline(always)]
-    fn by_center(&self, r: &Reference) -> [usize; 3] {
-        let at = ((r.center() - self.base) * self.scale + Vec4::splat(ROUNDING)).to_array();
-        [0, 1, 2].map(|axis| at[axis].to_bits() as usize & (MAX_BINS - 1))
+    fn by_center(&self, axis: usize, r: &Reference) -> usize {
+        self.place(axis, r).to_bits() as usize & (MAX_BINS - 1)
     }
 
     /// Half octaves of area below the whole's: differences of the bits of floats are differences of their logarithms.
@@ -69,9 +88,7 @@ impl Mapping {
     pub(super) fn is_behind(&self, r: &Reference, s: &Division) -> bool {
         match (s.key, self.largest) {
             // Numbers from the rounding one on are ordered as the bins are.
-            (Key::Center(axis), _) => {
-                ((r.lo[axis] + r.hi[axis]) - self.base[axis]) * self.scale[axis] + ROUNDING >= s.threshold
-            }
+            (Key::Center(axis), _) => self.place(axis, r) >= s.threshold,
             (Key::Size, Some(largest)) => Self::by_size(largest, r) >= s.bin,
             (Key::Size, None) => false,
         }
@@ -144,25 +161,54 @@ impl Bins {
     /// Adds every `step`-th reference.
     #[inline(always)]
     pub(super) fn add(&mut self, references: &[Reference], step: usize, mapping: &Mapping) {
+        let mut axes = (0..3).filter(|&axis| mapping.scale[axis] != 0.0);
+        // Few axes are worth code of their own.
+        match [axes.next(), axes.next(), axes.next()] {
+            [Some(a), None, _] => self.add_along([a], references, step, mapping),
+            [Some(a), Some(b), None] => self.add_along([a, b], references, step, mapping),
+            _ => self.add_along([0, 1, 2], references, step, mapping),
+        }
+    }
+
+    #[inline(always)]
+    fn add_along<const N: usize>(
+        &mut self,
+        axes: [usize; N],
+        references: &[Reference],
+        step: usize,
+        mapping: &Mapping,
+    ) {
         for block in references.chunks(BLOCK * step) {
-            // Copied, so that they need not be read again after each writing to a bin.
-            for r in block.iter().step_by(step).copied() {
-                let (reach, weight) = (r.as_box(), r.weight());
-                for (axis, bin) in mapping.by_center(&r).into_iter().enumerate() {
-                    self.count(axis, bin, reach, weight);
+            // Neighbours tend to fall into the same bin, and one would have to wait for the other: they take turns with
+            // others from far away.
+            let (a, b) = block.split_at(block.len() / 2 / step * step);
+            let (mut a, b) = (a.iter().step_by(step), b.iter().step_by(step));
+            for r in b {
+                self.count_center(axes, r, mapping);
+                if let Some(r) = a.next() {
+                    self.count_center(axes, r, mapping);
                 }
             }
             if let Some(largest) = mapping.largest {
                 for r in block.iter().step_by(step) {
-                    self.count(3, Mapping::by_size(largest, r), r.as_box(), r.weight());
+                    self.count(SIZE, Mapping::by_size(largest, r), r, r.weight());
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn count(&mut self, key: usize, bin: usize, reach: Box4, weight: u32) {
-        self.boxes[bin][key] = self.boxes[bin][key].union(reach);
+    fn count_center<const N: usize>(&mut self, axes: [usize; N], r: &Reference, mapping: &Mapping) {
+        // Copied, so that it need not be read again after each writing to a bin.
+        let (r, weight) = (*r, r.weight());
+        for axis in axes {
+            self.count(axis, mapping.by_center(axis, &r), &r, weight);
+        }
+    }
+
+    #[inline(always)]
+    fn count(&mut self, key: usize, bin: usize, r: &Reference, weight: u32) {
+        self.boxes[bin][key] = self.boxes[bin][key].union(r.as_box());
         self.weights[bin][key] += weight;
     }
 
@@ -173,6 +219,12 @@ impl Bins {
         for (a, b) in self.weights.as_flattened_mut().iter_mut().zip(other.weights.as_flattened()) {
             *a += b;
         }
+    }
+
+    /// A bound on the half areas of the references in these bins; `None` where sizes were not binned.
+    pub(super) fn largest(&self, mapping: &Mapping) -> Option<f32> {
+        let bin = (0..mapping.bins).find(|&bin| self.weights[bin][SIZE] > 0)?;
+        mapping.largest.map(|all| f32::from_bits(all.saturating_sub((bin as u32) << 22)))
     }
 
     /// The cheapest division; `None` where nothing can be told apart or no cost is finite.
@@ -186,9 +238,9 @@ impl Bins {
         }
         let (mut least, mut at) = (Vec4::INFINITY, Vec4::ZERO);
         sweep = Sweep::EMPTY;
-        for bin in 1..mapping.bins {
+        for (bin, &behind) in behind.iter().enumerate().take(mapping.bins).skip(1) {
             sweep.add(self, bin - 1);
-            let costs = sweep.costs() + behind[bin];
+            let costs = sweep.costs() + behind;
             // Nothing on one side costs NaN, which is not less than anything.
             let is_less = costs.cmplt(least);
             least = Vec4::select(is_less, costs, least);

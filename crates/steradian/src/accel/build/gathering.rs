@@ -12,6 +12,12 @@ pub(super) struct Costs([f32; WIDTH]);
 
 impl Costs {
     pub(super) const LEAF: Self = Self([0.0; WIDTH]);
+
+    /// Whether they are those of a leaf, or of a fork without any area, which costs as little.
+    #[inline(always)]
+    fn is_leaf(&self) -> bool {
+        self.0[0] == 0.0
+    }
 }
 
 /// How a fork is best gathered: for every number of roots that it may have, how many of them lie below its first child.
@@ -36,9 +42,21 @@ impl Choice {
         self.0 >> (Self::BITS * (roots as u32 - 2)) & ((1 << Self::BITS) - 1)
     }
 
+    /// The best for a fork over two leaves, as [`Choice::between`] finds it for every other fork.
+    #[inline(always)]
+    fn of_leaves(half_area: f32) -> (Self, Costs) {
+        let mut costs = Costs::LEAF;
+        costs.0[0] = half_area;
+        // One root goes to the first child, however many there may be.
+        (Self(0x0111_1111), costs)
+    }
+
     /// The best for a fork of the given half area over two children.
     #[inline(always)]
     pub(super) fn between(half_area: f32, first: &Costs, second: &Costs) -> (Self, Costs) {
+        if first.is_leaf() && second.is_leaf() {
+            return Self::of_leaves(half_area);
+        }
         let mut shared = [f32::INFINITY; WIDTH];
         let mut bits = 0;
         let mut least = f32::INFINITY;
@@ -144,6 +162,16 @@ mod tests {
         assert_eq!(eight.0.divide(8), Some([4, 4]));
         assert_eq!(four.0.divide(4), Some([2, 2]));
         assert_eq!(pair.0.divide(1), None);
+    }
+
+    #[test]
+    fn two_leaves_are_no_special_case() {
+        // A cost that is too small to change anything makes the general case of the same two leaves.
+        let nearly = Costs([f32::MIN_POSITIVE; WIDTH]);
+        let (special, costs) = Choice::between(3.0, &Costs::LEAF, &Costs::LEAF);
+        let (general, same) = Choice::between(3.0, &nearly, &Costs::LEAF);
+        assert_eq!(special.divide(WIDTH), Some([1, 7]));
+        assert_eq!((special.divide(WIDTH), costs.0[0]), (general.divide(WIDTH), same.0[0]));
     }
 
     #[test]

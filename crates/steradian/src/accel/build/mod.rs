@@ -79,10 +79,7 @@ pub(super) fn build(
     tree.bounds = Some(bounds);
     let references = count * size_of::<Reference>();
     // What is held at once at the end of collapsing and of packing, when the chunks' nodes are gone.
-    let moments = [
-        2 * references + branches + chunks,
-        references + chunks - nodes + tree.heap_bytes(),
-    ];
+    let moments = [2 * references + branches + chunks, references + chunks - nodes + tree.heap_bytes()];
     tree.peak_bytes = moments.into_iter().max().unwrap_or(0);
     Ok(tree)
 }

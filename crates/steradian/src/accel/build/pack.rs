@@ -48,18 +48,14 @@ pub(super) fn pack(
     layout: &Layout,
     mut collapsed: Collapsed,
     references: Vec<Reference>,
-    mut room: Vec<Packet>,
+    room: Vec<Packet>,
 ) -> Result<Tree, AccelError> {
     let offsets = Offsets::new(&collapsed.chunks);
     let (nodes, packets) = (offsets.nodes.total(), offsets.packets.total());
     if nodes > Child::MAX_PACKETS || packets > Child::MAX_PACKETS {
         return Err(AccelError::TooLarge { count: references.len() });
     }
-    let mut tree = Tree {
-        nodes: pages::reserved(nodes),
-        depth: collapsed.depth,
-        ..Tree::default()
-    };
+    let mut tree = Tree { nodes: pages::reserved(nodes), depth: collapsed.depth, ..Tree::default() };
     let chunks = &collapsed.chunks;
     (0..nodes)
         .into_par_iter()
@@ -83,10 +79,12 @@ pub(super) fn pack(
     collapsed.chunks.iter_mut().for_each(|c| c.nodes = Vec::new());
     let packer = Packer { shapes, layout, references: &references };
     let chunks = &collapsed.chunks;
-    if room.len() < packets {
-        room = Vec::new();
-        room = pages::zeroed(packets);
-    }
+    let mut room = if room.len() < packets {
+        drop(room);
+        pages::zeroed(packets)
+    } else {
+        room
+    };
     room.truncate(packets);
     room.par_iter_mut().enumerate().for_each_init(
         || 0,

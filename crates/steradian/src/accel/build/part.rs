@@ -3,7 +3,7 @@
 //! All partitions are stable and all sums independent of their order, so that the parts are the same for any number of
 //! threads.
 
-use super::binning::{Bins, Division, Mapping};
+use super::binning::{Bins, Division, Mapping, is_large};
 use super::reference::{Box4, Extent, Reference};
 use crate::accel::bunch::STRANDS;
 use crate::accel::tree::{LANES, MAX_DEPTH};
@@ -12,8 +12,11 @@ use rayon::prelude::*;
 /// References that one thread handles at a time in a division by all.
 const SLICE: usize = 1 << 14;
 
-/// References that are enough to find a good division.
-const SAMPLE: usize = 1 << 17;
+/// References that are enough to find a good division where all are small. A quarter of it is too few near the root.
+const SAMPLE: usize = 1 << 14;
+
+/// The same where a few large ones should not be missed.
+const LARGE_SAMPLE: usize = 1 << 17;
 
 /// Part of the area of a leaf below which its halves are leaves of their own.
 const GAIN: f32 = 0.8;
@@ -32,13 +35,17 @@ pub(super) struct Part<'a> {
     pub(super) extent: Extent,
     /// Ancestors in the binary tree.
     pub(super) depth: u32,
+    /// No reference has a larger half area.
+    largest: f32,
 }
 
 impl<'a> Part<'a> {
     /// All of `references`; `spare` is room for as many.
     pub(super) fn whole(references: &'a mut [Reference], spare: &'a mut [Reference]) -> Self {
         let extent = references.par_chunks(SLICE).map(Extent::of).reduce(|| Extent::EMPTY, Extent::union);
-        Self { references, spare, displaced: false, first: 0, extent, depth: 0 }
+        let area = |slice: &[Reference]| slice.iter().map(|r| r.as_box().half_area()).fold(0.0, f32::max);
+        let largest = references.par_chunks(SLICE).map(area).reduce(|| 0.0, f32::max);
+        Self { references, spare, displaced: false, first: 0, extent, depth: 0, largest }
     }
 
     /// Whether one packet, one bunch of curves, or the only item of a leaf holds all.
@@ -51,7 +58,7 @@ impl<'a> Part<'a> {
     /// Whether rays would meet clearly less of its halves than of a leaf that holds all: packets are tested as a whole,
     /// and two walls in one are tested by every ray in the room.
     pub(super) fn gains_by_division(&self, bins: &mut Bins) -> bool {
-        let mapping = Mapping::new(&self.extent, self.references.len());
+        let mapping = Mapping::new(&self.extent, self.references.len(), self.largest);
         bins.clear(&mapping);
         bins.add(self.references, 1, &mapping);
         let Some(s) = bins.cheapest(&mapping) else { return false };
@@ -80,15 +87,22 @@ impl<'a> Part<'a> {
     /// Of how many references one is enough to find a division.
     #[inline(always)]
     fn step(&self) -> usize {
-        (self.references.len() / SAMPLE).max(1)
+        let sample = if is_large(self.largest, &self.extent) { LARGE_SAMPLE } else { SAMPLE };
+        (self.references.len() / sample).max(1)
     }
 
     /// Two parts, found by one thread.
     #[inline(always)]
-    pub(super) fn split(self, bins: &mut Bins) -> (Self, Self) {
-        let mapping = Mapping::new(&self.extent, self.references.len());
+    pub(super) fn split(mut self, bins: &mut Bins) -> (Self, Self) {
+        let mapping = Mapping::new(&self.extent, self.references.len(), self.largest);
         bins.clear(&mapping);
-        bins.add(self.references, self.step(), &mapping);
+        let step = self.step();
+        bins.add(self.references, step, &mapping);
+        if step == 1
+            && let Some(largest) = bins.largest(&mapping)
+        {
+            self.largest = largest;
+        }
         match bins.cheapest(&mapping).filter(|_| self.may_be_lopsided()) {
             Some(s) => self.split_at_division(&mapping, &s),
             None => self.halve(),
@@ -141,7 +155,7 @@ impl<'a> Part<'a> {
 
     /// Two parts, found by all threads.
     pub(super) fn split_by_all(self) -> (Self, Self) {
-        let mapping = Mapping::new(&self.extent, self.references.len());
+        let mapping = Mapping::new(&self.extent, self.references.len(), self.largest);
         let step = self.step();
         let sampled = |slice: &[Reference]| {
             let mut bins = Bins::new();
@@ -191,11 +205,19 @@ impl<'a> Part<'a> {
     fn cut(self, middle: usize, [extent_a, extent_b]: [Extent; 2]) -> (Self, Self) {
         let (a, b) = self.references.split_at_mut(middle);
         let (spare_a, spare_b) = self.spare.split_at_mut(middle);
-        let (displaced, depth) = (self.displaced, self.depth + 1);
+        let (displaced, depth, largest) = (self.displaced, self.depth + 1, self.largest);
         let first = self.first + middle as u32;
         (
-            Part { references: a, spare: spare_a, displaced, first: self.first, extent: extent_a, depth },
-            Part { references: b, spare: spare_b, displaced, first, extent: extent_b, depth },
+            Part {
+                references: a,
+                spare: spare_a,
+                displaced,
+                first: self.first,
+                extent: extent_a,
+                depth,
+                largest,
+            },
+            Part { references: b, spare: spare_b, displaced, first, extent: extent_b, depth, largest },
         )
     }
 }

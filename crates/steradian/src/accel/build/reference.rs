@@ -125,7 +125,7 @@ impl Reference {
     /// What testing it costs, in triangles: anything else costs a packet of its own.
     #[inline(always)]
     pub(super) fn weight(&self) -> u32 {
-        1 + (LANES as u32 - 1) * (self.lo.w.to_bits() / Self::OTHER & 1)
+        1 + (LANES as u32 - 1) * ((self.lo.w.to_bits() / Self::OTHER) & 1)
     }
 }
 
