@@ -402,11 +402,11 @@ pub(super) mod avx2 {
         };
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         let zero = _mm_setzero_ps();
-        // min and max return their second operand when one is NaN (overflow): such a lane is neither all positive nor
-        // all negative, and if it does not count as missed, the exact test decides.
+        // min and max return their second operand when one is NaN (overflow), so that all of them but that are seen here: two
+        // of opposite signs are a miss whatever the third is. Otherwise such a lane is neither all positive nor all
+        // negative, and the exact test decides.
         let (least, most) = (_mm_min_ps(_mm_min_ps(u, v), w), _mm_max_ps(_mm_max_ps(u, v), w));
-        let ordered = _mm_cmpord_ps(_mm_add_ps(u, v), w);
-        let missed = _mm_and_ps(_mm_and_ps(_mm_cmplt_ps(least, zero), _mm_cmpgt_ps(most, zero)), ordered);
+        let missed = _mm_and_ps(_mm_cmplt_ps(least, zero), _mm_cmpgt_ps(most, zero));
         let passed = !(_mm_movemask_ps(missed) as u32) & 0xf;
         if passed == 0 {
             return Lanes { met: 0, positive: 0, negative: 0, certain: 0 };
@@ -442,7 +442,7 @@ pub(super) mod avx2 {
             _mm_and_ps(_mm_cmpgt_ps(at_least, over_far), _mm_cmplt_ps(at_least, _mm_set1_ps(f32::INFINITY))),
         );
         let out = _mm_and_ps(one_sided, _mm_or_ps(behind, beyond));
-        let ordered = _mm_movemask_ps(ordered) as u32;
+        let ordered = _mm_movemask_ps(_mm_cmpord_ps(_mm_add_ps(u, v), w)) as u32;
         let met = passed & !(_mm_movemask_ps(out) as u32);
         let at_most = _mm_add_ps(_mm_mul_ps(_mm_add_ps(depth, depth_error), scale), least_positive);
         let near = _mm_set1_ps(t_max * (1.0 / EXIT_SLACK));
@@ -450,7 +450,8 @@ pub(super) mod avx2 {
             _mm_cmplt_ps(_mm_max_ps(_mm_max_ps(ta, tb), tc), near),
             _mm_cmplt_ps(at_most, _mm_mul_ps(_mm_sub_ps(area, error), near)),
         );
-        let seen = _mm_and_ps(_mm_cmpgt_ps(depth, depth_error), _mm_cmpgt_ps(area, error));
+        // Seen from one side, depth ≤ area × along, so that the area is beyond doubt, too; and a NaN is in the depth as well.
+        let seen = _mm_cmpgt_ps(depth, depth_error);
         let certain = _mm_movemask_ps(_mm_and_ps(_mm_and_ps(one_sided, before), seen)) as u32;
         // SAFETY: an owner is 32 bits whose highest says that its hits are filtered, as that of unused lanes does.
         let owners = unsafe { _mm_load_ps(packet.owners.as_ptr().cast()) };
@@ -458,7 +459,7 @@ pub(super) mod avx2 {
             met,
             positive: _mm_movemask_ps(_mm_cmpgt_ps(least, zero)) as u32 & ordered,
             negative: _mm_movemask_ps(negative) as u32 & ordered,
-            certain: met & certain & ordered & !(_mm_movemask_ps(owners) as u32),
+            certain: passed & certain & !(_mm_movemask_ps(owners) as u32),
         }
     }
 }
