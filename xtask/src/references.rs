@@ -16,6 +16,15 @@ struct Entry {
 
 /// `references --scenes DIR --python EXE [--only NAME]`: all scenes of kind `surface`, or one of any kind.
 pub(crate) fn run(root: &Path, arguments: &[String]) -> Result<String, String> {
+    // Else a slip costs minutes.
+    let known = ["--scenes", "--python", "--only"];
+    for pair in arguments.chunks(2) {
+        match pair {
+            [name, _] if known.contains(&name.as_str()) => {}
+            [name, ..] => return Err(format!("`{name}`: expected {} and a value", known.join(", "))),
+            [] => {}
+        }
+    }
     let option = |name: &str| arguments.iter().position(|a| a == name).and_then(|i| arguments.get(i + 1));
     let scenes = option("--scenes").map_or_else(|| root.join("../shared/scenes"), PathBuf::from);
     let python = option("--python").map_or("python3", String::as_str);
